@@ -1,0 +1,8 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "command.hpp"
+
+// One function a command, each in the .cpp of its name; the table is in main.cpp.
+namespace hmt::apps {}  // namespace hmt::apps

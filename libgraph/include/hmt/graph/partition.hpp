@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "hmt/graph/weighted_graph.hpp"
+
+namespace hmt::graph {
+
+/// Group of each node, numbered canonically: groups are 0..k-1 in the order of their smallest node.
+using Labels = std::vector<int>;
+
+/// Where the Fiedler vector is cut [Blanco 2009, Sec. 2.2].
+enum class Threshold { mean, sign, sweep };
+
+struct PartitionOptions {
+  /// Accept a bisection if its Ncut < tau, 0 < tau < 2 [Blanco 2009, Table 1]; raising it gives
+  /// more, smaller groups.
+  double tau = 2.0 / 3.0;
+  Threshold threshold = Threshold::sweep;
+  /// Groups below this number of nodes are not cut, >= 1.
+  int min_size = 1;
+  /// Exactly this number of groups, best cut first; tau is not used then.
+  std::optional<int> groups;
+};
+
+/// One accepted bisection (or split into components, ncut 0), in the order of the recursion.
+struct Bisection {
+  int size_a = 0;
+  int size_b = 0;
+  double ncut = 0;  ///< Eq. 1, in [0, 2]
+  double lambda_2 =
+      0;  ///< second smallest eigenvalue of Eq. 10: a lower bound of ncut; 0 for components
+  double residual = 0;  ///< |L z - lambda z| of the normalized Laplacian
+};
+
+struct PartitionResult {
+  Labels labels;
+  std::vector<Bisection> bisections;
+};
+
+/// Recursive spectral min-Ncut partition [Blanco 2009, Table 1]: connected components first, then
+/// bisections. Independent of the order of the nodes and of the number of threads. The empty graph
+/// gives no labels. Throws InputError naming the option that is out of range.
+PartitionResult recursive_partition(const WeightedGraph& graph, const PartitionOptions& options,
+                                    int threads = 1);
+
+}  // namespace hmt::graph

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hmt/graph/pose_graph.hpp"
+
+namespace hmt::graph {
+
+/// How edges that contradict the others are treated.
+enum class RobustMethod {
+  none,   ///< every edge counts with its square
+  huber,  ///< linear growth beyond the 95 % quantile of chi2
+  gnc     ///< graduated non-convexity, truncated least squares [Yang 2020]: an edge is in or out
+};
+
+/// Where the optimization starts.
+enum class Initialization {
+  given,  ///< the poses of the graph
+  best    ///< the one of least chi2 of: the poses of the graph, chordal relaxation, spanning tree
+};
+
+struct PoseOptimizerOptions {
+  RobustMethod robust = RobustMethod::none;
+  Initialization initialization = Initialization::given;
+  /// Upper limit of the iterations of one solve, >= 1.
+  int max_iterations = 100;
+  /// With gnc: edges that are never doubted (odometry), one flag an edge; empty: edges between i
+  /// and i+1.
+  std::vector<bool> trusted;
+  int threads = 1;
+};
+
+enum class Termination { converged, iteration_limit, nothing_to_do, failed };
+
+struct PoseOptimizerReport {
+  Termination termination = Termination::nothing_to_do;
+  std::string message;
+  int iterations = 0;
+  double chi2_initial = 0;  ///< sum of r^T Omega r over all edges at the given poses, no 1/2
+  double chi2 = 0;          ///< the same at the result; with gnc, over the inliers
+  double solve_s = 0;
+  Initialization start = Initialization::given;  ///< the start that was taken
+  std::vector<double> edge_chi2;                 ///< r^T Omega r of every edge at the result
+  std::vector<bool> inlier;                      ///< verdict on every edge; all true without gnc
+};
+
+struct PoseOptimizerResult {
+  std::vector<Pose> poses;
+  PoseOptimizerReport report;
+};
+
+/// Minimizes the sum of r^T Omega r over the poses, r = boxminus(T_world_from^-1 T_world_to,
+/// T_from_to): in the plane r = (R_z^T (t_rel - t_z), wrap(yaw)), in space r = (R_z^T (t_rel -
+/// t_z), 2 vec(q_z^-1 q_rel)) with q_w >= 0. Deterministic for any number of threads. A graph
+/// without edges returns its poses. Throws InputError naming the edge whose nodes or numbers are
+/// invalid.
+PoseOptimizerResult optimize(const PoseGraph& graph, const PoseOptimizerOptions& options);
+
+}  // namespace hmt::graph

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hmt/submap/observation/observation.hpp"
+
+namespace hmt::submap {
+
+/// What happened while a log was read. Losses are what could not be used.
+struct LogReport {
+  int64_t observations = 0;
+  int64_t odometry_records = 0;
+  std::map<std::string, int64_t>
+      notes;  ///< harmless peculiarities and how often: "stamps run backwards", ...
+  std::map<std::string, int64_t> losses;  ///< records that were left out and how often, by reason
+};
+
+/// One forward pass over a log, with bounded memory.
+class LogReader {
+ public:
+  virtual ~LogReader() = default;
+  /// The next observation; nothing at the end. Throws InputError naming file and line (or byte)
+  /// where the file cannot be read any further.
+  virtual std::optional<Observation> next() = 0;
+  /// What was read so far.
+  virtual const LogReport& report() const = 0;
+  /// Bytes of the file consumed so far and in all, for progress.
+  virtual int64_t bytes_read() const = 0;
+  virtual int64_t bytes_total() const = 0;
+  /// Whether the log's poses lie in a plane.
+  virtual Space space() const = 0;
+};
+
+/// Opens a log by its content: CARMEN text, plain or compressed (gz, bz2, zst). Throws InputError
+/// for a missing, unreadable, empty or unknown file and for a folder.
+std::unique_ptr<LogReader> open_log(const std::filesystem::path& path);
+
+}  // namespace hmt::submap

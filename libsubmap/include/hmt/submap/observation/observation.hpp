@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "hmt/graph/input_error.hpp"
+#include "hmt/graph/pose.hpp"
+
+namespace hmt::submap {
+
+using graph::InputError;
+using graph::Matrix6d;
+using graph::Pose;
+using graph::Space;
+using graph::Vector6d;
+
+/// What one range sensor saw at one stamp: a planar scan (z = 0 in the sensor frame) or a cloud.
+struct Reading {
+  int sensor = 0;  ///< which sensor of the log, 0..
+  Pose T_robot_sensor;
+  double max_range_m = 0;    ///< nothing is known beyond it
+  double beam_step_rad = 0;  ///< angle between neighbouring beams: beta of Eq. 16
+  /// Measured points in the sensor frame, metres, in beam order.
+  std::vector<Eigen::Vector3f> points_sensor;
+  /// Unit directions of the beams that met nothing up to max_range_m, in the sensor frame.
+  std::vector<Eigen::Vector3f> misses_sensor;
+
+  bool operator==(const Reading&) const = default;
+};
+
+/// What all sensors saw at one stamp.
+struct Observation {
+  int64_t index = 0;   ///< position in the log, 0..
+  double stamp_s = 0;  ///< the log's own stamp, as it was
+  Pose T_odom_robot;   ///< by the log's odometry at the stamp
+  std::vector<Reading> readings;
+
+  bool operator==(const Observation&) const = default;
+};
+
+/// All measured points in the robot frame, readings one after the other.
+std::vector<Eigen::Vector3d> points_in_robot(const Observation& observation);
+
+}  // namespace hmt::submap
