@@ -20,6 +20,8 @@ struct LogReport {
   std::map<std::string, int64_t>
       notes;  ///< harmless peculiarities and how often: "stamps run backwards", ...
   std::map<std::string, int64_t> losses;  ///< records that were left out and how often, by reason
+
+  bool operator==(const LogReport&) const = default;
 };
 
 /// One forward pass over a log, with bounded memory.
