@@ -17,9 +17,10 @@ namespace hmt::submap {
 struct LogReport {
   int64_t observations = 0;
   int64_t odometry_records = 0;
-  std::map<std::string, int64_t>
-      notes;  ///< harmless peculiarities and how often: "stamps run backwards", ...
-  std::map<std::string, int64_t> losses;  ///< records that were left out and how often, by reason
+  /// Harmless peculiarities and how often: "stamps run backwards", ...
+  std::map<std::string, int64_t> notes;
+  /// Records that were left out and how often, by reason.
+  std::map<std::string, int64_t> losses;
 
   bool operator==(const LogReport&) const = default;
 };

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "hmt/graph/partition.hpp"
+#include "hmt/graph/weighted_graph.hpp"
+#include "hmt/submap/link/link.hpp"
+#include "hmt/submap/link/loop_search.hpp"
+#include "hmt/submap/local/submap.hpp"
+#include "hmt/submap/registration/constraint.hpp"
+#include "hmt/submap/registration/track.hpp"
+
+namespace hmt::submap {
+
+/// The graph of submaps and links with all that it was made from, except the observations and the
+/// OctoMaps, which stay in the map file.
+struct HybridMap {
+  Track track;
+  std::vector<Constraint> constraints;
+  std::vector<graph::Arc> overlap;  ///< Omega, every arc once with a < b, ordered
+  graph::Labels submap_of_keyframe;
+  std::vector<Submap> submaps;
+  std::vector<Link> links;
+  std::vector<LoopCandidate> loops;
+  std::vector<Pose> T_world_submap;
+  std::vector<Matrix6d> covariance_world_submap;  ///< tangent of Pose, frame submap
+  double information_loss = 0;                    ///< e of Eq. 22 for the whole partition
+  double chi2_initial = 0;                        ///< of the submap graph
+  double chi2 = 0;
+};
+
+/// T_world_keyframe of a keyframe.
+Pose world_pose(const HybridMap& map, int keyframe);
+/// T_world_robot of every observation, in the order of the log.
+std::vector<Pose> world_trajectory(const HybridMap& map);
+
+}  // namespace hmt::submap

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "hmt/graph/weighted_graph.hpp"
+#include "hmt/submap/observation/observation_store.hpp"
+#include "hmt/submap/registration/constraint.hpp"
+#include "hmt/submap/registration/track.hpp"
+#include "hmt/submap/run.hpp"
+
+namespace hmt::submap {
+
+struct OverlapOptions {
+  /// Largest Mahalanobis distance of corresponding points [Blanco 2009, Sec. 3.1].
+  double max_mahalanobis = 3.0;
+  /// Arcs below this overlap are left out, [0, 1).
+  double min_overlap = 0.02;
+};
+
+/// Sensed Space Overlap of two readings of range sensors [Blanco 2009, Eq. 13, 15, 16], made
+/// symmetric: matches are counted in both directions and averaged; union = |a| + |b| - matches. In
+/// [0, 1]; 1 for a reading with itself at the identity; 0 if one is empty.
+/// `covariance_a_b`: of T_robota_robotb, tangent of Pose (frame b).
+double reading_overlap(const Reading& a, const Reading& b, const Pose& T_robota_robotb,
+                       const Matrix6d& covariance_a_b, const OverlapOptions& options);
+
+/// Mean over the sensors that both observations have of the overlap of their readings
+/// [Blanco 2009, Sec. 6.2].
+double observation_overlap(const Observation& a, const Observation& b, const Pose& T_robota_robotb,
+                           const Matrix6d& covariance_a_b, const OverlapOptions& options);
+
+/// Omega: the overlap of all pairs of keyframes whose sensed regions meet at the given poses and
+/// whose relative pose is known well enough to tell. Never looks at all n^2 pairs. Same result for
+/// any number of threads.
+graph::WeightedGraph overlap_graph(std::span<const Keyframe> keyframes,
+                                   std::span<const Pose> T_world_keyframe,
+                                   const PairCovariance& covariance,
+                                   const ObservationStore& observations,
+                                   const OverlapOptions& options, const Run& run);
+
+}  // namespace hmt::submap

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "hmt/submap/observation/observation.hpp"
+
+namespace hmt::submap {
+
+/// Where a constraint comes from.
+enum class ConstraintKind {
+  odometry,      ///< consecutive keyframes, from the front end
+  registration,  ///< two keyframes whose overlap was predicted and confirmed by registration
+  loop           ///< found by the loop search
+};
+
+/// Measured relative pose of two keyframes, a < b.
+struct Constraint {
+  int a = 0;
+  int b = 0;
+  ConstraintKind kind = ConstraintKind::registration;
+  Pose T_a_b;
+  /// Inverse covariance in the tangent of Pose (frame b); singular where the geometry does not fix
+  /// a direction, such as along a corridor. In Space::se2 only x, y and rz are used.
+  Matrix6d information = Matrix6d::Zero();
+
+  bool operator==(const Constraint&) const = default;
+};
+
+/// Covariance of T_a_b of two keyframes by what is known of the trajectory (tangent of Pose, frame
+/// b); nothing where they are not connected.
+using PairCovariance = std::function<std::optional<Matrix6d>(int a, int b)>;
+
+}  // namespace hmt::submap
