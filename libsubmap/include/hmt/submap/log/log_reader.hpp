@@ -21,6 +21,8 @@ struct LogReport {
   std::map<std::string, int64_t> notes;
   /// Records that were left out and how often, by reason.
   std::map<std::string, int64_t> losses;
+  /// Where the first of each note and loss was: "file:line".
+  std::map<std::string, std::string> first_places;
 
   bool operator==(const LogReport&) const = default;
 };

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <boost/iostreams/categories.hpp>
+#include <boost/iostreams/filter/bzip2.hpp>
+#include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filter/zstd.hpp>
+#include <boost/iostreams/read.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "hmt/graph/input_error.hpp"
+#include "line_source.hpp"
+
+namespace hmt::submap {
+namespace {
+
+namespace io = boost::iostreams;
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw graph::InputError(path.string() + ": " + reason);
+}
+
+/// The file's own bytes, as a Boost.Iostreams source.
+class File {
+ public:
+  using char_type = char;
+  using category = io::source_tag;
+
+  explicit File(const std::filesystem::path& path)
+      : path_(path), file_(std::fopen(path.c_str(), "rb"), &std::fclose) {
+    if (!file_) refuse(path, std::string("cannot be read: ") + std::strerror(errno));
+  }
+
+  std::streamsize read(char* out, std::streamsize size) {
+    const size_t count = std::fread(out, 1, static_cast<size_t>(size), file_.get());
+    if (count == 0 && std::ferror(file_.get()))
+      refuse(path_,
+             "reading failed at byte " + std::to_string(bytes_read_) + ": " + std::strerror(errno));
+    bytes_read_ += static_cast<int64_t>(count);
+    return count > 0 ? static_cast<std::streamsize>(count) : -1;
+  }
+
+  /// The first bytes, which are then read again.
+  std::string peek(size_t size) {
+    std::string head(size, '\0');
+    head.resize(std::fread(head.data(), 1, size, file_.get()));
+    std::rewind(file_.get());
+    return head;
+  }
+
+  int64_t bytes_read() const { return bytes_read_; }
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  int64_t bytes_read_ = 0;
+};
+
+class PlainSource : public ByteSource {
+ public:
+  explicit PlainSource(File file) : file_(std::move(file)) {}
+  size_t read(char* out, size_t size) override {
+    return static_cast<size_t>(
+        std::max<std::streamsize>(0, file_.read(out, static_cast<std::streamsize>(size))));
+  }
+  const std::string& damage() const override { return damage_; }
+  int64_t bytes_read() const override { return file_.bytes_read(); }
+
+ private:
+  File file_;
+  std::string damage_;
+};
+
+template <typename Filter>
+class CompressedSource : public ByteSource {
+ public:
+  explicit CompressedSource(File file) : file_(std::move(file)) {}
+
+  size_t read(char* out, size_t size) override {
+    if (!damage_.empty()) return 0;
+    // A filter that throws does not say how much it had decoded. A text log holds no zero byte, so
+    // the zeros that are left tell it, and what stands before the damage is not lost.
+    std::memset(out, 0, size);
+    try {
+      const std::streamsize count =
+          io::read(filter_, file_, out, static_cast<std::streamsize>(size));
+      return static_cast<size_t>(std::max<std::streamsize>(0, count));
+    } catch (const std::ios_base::failure&) {
+      damage_ = "compressed data damaged or cut at byte " + std::to_string(file_.bytes_read());
+      return strnlen(out, size);
+    }
+  }
+  const std::string& damage() const override { return damage_; }
+  int64_t bytes_read() const override { return file_.bytes_read(); }
+
+ private:
+  File file_;
+  Filter filter_;
+  std::string damage_;
+};
+
+}  // namespace
+
+std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) refuse(path, "no such file");
+  if (std::filesystem::is_directory(status)) refuse(path, "is a folder, not a log file");
+  File file(path);
+  const std::string head = file.peek(4);
+  if (head.empty()) refuse(path, "the file is empty");
+  if (head.starts_with("\x1f\x8b"))
+    return std::make_unique<CompressedSource<io::gzip_decompressor>>(std::move(file));
+  if (head.starts_with("BZh"))
+    return std::make_unique<CompressedSource<io::bzip2_decompressor>>(std::move(file));
+  if (head == "\x28\xb5\x2f\xfd")
+    return std::make_unique<CompressedSource<io::zstd_decompressor>>(std::move(file));
+  return std::make_unique<PlainSource>(std::move(file));
+}
+
+}  // namespace hmt::submap
