@@ -29,6 +29,15 @@ struct Constraint {
   bool operator==(const Constraint&) const = default;
 };
 
+/// Keyframes at most this far apart in number belong to one visit of the robot to a place.
+inline constexpr int kVisitGap = 10;
+
+/// True for odometry and for registrations within one visit: the drift between the two keyframes is
+/// so small that the registration cannot have gone to a wrong place.
+inline bool is_within_visit(const Constraint& c) {
+  return c.kind != ConstraintKind::loop && c.b - c.a <= kVisitGap;
+}
+
 /// Covariance of T_a_b of two keyframes by what is known of the trajectory (tangent of Pose, frame
 /// b); nothing where they are not connected.
 using PairCovariance = std::function<std::optional<Matrix6d>(int a, int b)>;

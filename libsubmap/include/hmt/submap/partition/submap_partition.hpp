@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "hmt/graph/partition.hpp"
+#include "hmt/graph/weighted_graph.hpp"
+#include "hmt/submap/registration/constraint.hpp"
+
+namespace hmt::submap {
+
+struct SubmapPartitionOptions {
+  /// Bisections with an Ncut below tau are made, (0, 2) [Blanco 2009, Table 1]; raising it gives
+  /// more, smaller submaps.
+  double tau = 2.0 / 3.0;
+  /// Groups of fewer keyframes are not cut any further, >= 1.
+  int min_keyframes = 8;
+};
+
+/// Submap of each keyframe: the recursive min-Ncut partition of Omega, then made fit for local
+/// optimization. A group whose keyframes the constraints do not tie together falls into its
+/// connected pieces; a piece of fewer than three keyframes joins the submap that it shares most
+/// constraints with (by count; the smaller id on a tie). So every submap is connected by its own
+/// constraints, and every keyframe is in exactly one.
+graph::Labels partition_keyframes(const graph::WeightedGraph& overlap,
+                                  std::span<const Constraint> constraints,
+                                  const SubmapPartitionOptions& options, int threads);
+
+}  // namespace hmt::submap

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hmt/submap/link/robust_solution.hpp"
+
+#include <numeric>
+
+#include "hmt/graph/pairwise_consistency.hpp"
+#include "hmt/graph/pose_optimizer.hpp"
+#include "hmt/submap/local/optimize_submap.hpp"
+
+namespace hmt::submap {
+
+std::vector<LoopCandidate> consistent_loops(std::vector<LoopCandidate> candidates,
+                                            const graph::PoseGraph& trajectory) {
+  std::vector<size_t> accepted;
+  std::vector<graph::PoseGraphEdge> edges;
+  for (size_t k = 0; k < candidates.size(); ++k) {
+    if (candidates[k].verdict != LoopVerdict::accepted) continue;
+    accepted.push_back(k);
+    edges.push_back(
+        {candidates[k].a, candidates[k].b, candidates[k].T_a_b, candidates[k].information});
+  }
+  const std::vector<bool> consistent = graph::pairwise_consistent_set(trajectory, edges);
+  for (size_t k = 0; k < accepted.size(); ++k) {
+    if (consistent[k]) continue;
+    candidates[accepted[k]].verdict = LoopVerdict::inconsistent;
+    candidates[accepted[k]].reason =
+        "disagrees with the largest set of loop closures that agree with each other";
+  }
+  return candidates;
+}
+
+RobustSolution solve_robustly(Space space, std::span<const Pose> T_world_keyframe,
+                              std::span<const Constraint> constraints, const Run& run) {
+  std::vector<int> all(T_world_keyframe.size());
+  std::iota(all.begin(), all.end(), 0);
+  graph::PoseGraph graph = keyframe_graph(space, all, T_world_keyframe, constraints);
+  if (!graph.poses.empty()) graph.fixed = {0};
+  graph::PoseOptimizerOptions options;
+  options.robust = graph::RobustMethod::gnc;
+  options.threads = run.threads;
+  for (const Constraint& c : constraints) options.trusted.push_back(is_within_visit(c));
+  const graph::PoseOptimizerResult result = graph::optimize(graph, options);
+  RobustSolution solution;
+  solution.T_world_keyframe = result.poses;
+  solution.chi2 = result.report.chi2;
+  for (size_t k = 0; k < constraints.size(); ++k)
+    (result.report.inlier[k] ? solution.kept : solution.outliers).push_back(constraints[k]);
+  return solution;
+}
+
+}  // namespace hmt::submap

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hmt/submap/local/optimize_submap.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "hmt/graph/pose_covariance.hpp"
+#include "hmt/graph/pose_optimizer.hpp"
+
+namespace hmt::submap {
+
+graph::PoseGraph keyframe_graph(Space space, std::span<const int> keyframes,
+                                std::span<const Pose> T_frame_keyframe,
+                                std::span<const Constraint> constraints) {
+  const auto node = [&](int keyframe) {
+    const auto at = std::lower_bound(keyframes.begin(), keyframes.end(), keyframe);
+    return at != keyframes.end() && *at == keyframe ? static_cast<int>(at - keyframes.begin()) : -1;
+  };
+  graph::PoseGraph graph;
+  graph.space = space;
+  graph.poses.assign(T_frame_keyframe.begin(), T_frame_keyframe.end());
+  for (const Constraint& c : constraints) {
+    const int from = node(c.a);
+    const int to = node(c.b);
+    if (from >= 0 && to >= 0) graph.edges.push_back({from, to, c.T_a_b, c.information});
+  }
+  return graph;
+}
+
+std::vector<SubmapJob> make_submap_jobs(Space space, const graph::Labels& submap_of_keyframe,
+                                        std::span<const Pose> T_world_keyframe,
+                                        std::span<const Constraint> constraints) {
+  const int count =
+      submap_of_keyframe.empty()
+          ? 0
+          : *std::max_element(submap_of_keyframe.begin(), submap_of_keyframe.end()) + 1;
+  std::vector<SubmapJob> jobs(static_cast<size_t>(count));
+  const auto job_of = [&](int keyframe) -> SubmapJob& {
+    return jobs[static_cast<size_t>(submap_of_keyframe[static_cast<size_t>(keyframe)])];
+  };
+  for (int id = 0; id < count; ++id) {
+    jobs[static_cast<size_t>(id)].id = id;
+    jobs[static_cast<size_t>(id)].space = space;
+  }
+  for (size_t k = 0; k < submap_of_keyframe.size(); ++k) {
+    job_of(static_cast<int>(k)).keyframes.push_back(static_cast<int>(k));
+    job_of(static_cast<int>(k)).T_any_keyframe.push_back(T_world_keyframe[k]);
+  }
+  for (size_t c = 0; c < constraints.size(); ++c) {
+    SubmapJob& job = job_of(constraints[c].a);
+    if (&job != &job_of(constraints[c].b)) continue;
+    job.constraint_ids.push_back(static_cast<int>(c));
+    job.constraints.push_back(constraints[c]);
+  }
+  return jobs;
+}
+
+Submap optimize_submap(const SubmapJob& job) {
+  std::vector<Pose> T_submap_keyframe;
+  for (const Pose& T_any_keyframe : job.T_any_keyframe)
+    T_submap_keyframe.push_back(relative_pose(job.T_any_keyframe.front(), T_any_keyframe));
+  graph::PoseGraph graph =
+      keyframe_graph(job.space, job.keyframes, T_submap_keyframe, job.constraints);
+  graph.fixed = {0};
+  const graph::PoseOptimizerResult result = graph::optimize(graph, {});
+  graph.poses = result.poses;
+  Submap submap;
+  submap.id = job.id;
+  submap.keyframes = job.keyframes;
+  submap.T_submap_keyframe = result.poses;
+  submap.constraints = job.constraint_ids;
+  submap.chi2 = result.report.chi2;
+  const int dof = job.space == Space::se2 ? 3 : 6;
+  submap.degrees_of_freedom =
+      dof * (static_cast<int>(job.constraints.size()) - static_cast<int>(job.keyframes.size()) + 1);
+  const graph::PoseCovariance covariance(graph);
+  for (int node = 0; node < static_cast<int>(job.keyframes.size()); ++node) {
+    const auto marginal = covariance.marginal(node);
+    if (!marginal)
+      throw InputError("submap " + std::to_string(job.id) +
+                       ": its constraints do not tie keyframe " +
+                       std::to_string(job.keyframes[static_cast<size_t>(node)]) + " to the others");
+    submap.covariances.push_back(*marginal);
+  }
+  return submap;
+}
+
+}  // namespace hmt::submap
