@@ -22,8 +22,12 @@ struct PartitionOptions {
   Threshold threshold = Threshold::sweep;
   /// Groups below this number of nodes are not cut, >= 1.
   int min_size = 1;
-  /// Exactly this number of groups, best cut first; tau is not used then.
+  /// Exactly this number of groups, best cut first, then refined together (refine_groups); 1 to the
+  /// number of nodes. tau is not used then.
   std::optional<int> groups;
+  /// Move nodes across each cut where that lowers its Ncut, and try other thresholds and the next
+  /// eigenvectors before a group is declared whole. Off: the paper's bare threshold.
+  bool refine = true;
 };
 
 /// One accepted bisection (or split into components, ncut 0), in the order of the recursion.
@@ -40,6 +44,9 @@ struct PartitionResult {
   Labels labels;
   std::vector<Bisection> bisections;
 };
+
+/// The same grouping with groups numbered 0..k-1 in the order of their smallest node.
+Labels canonical_labels(const Labels& labels);
 
 /// Recursive spectral min-Ncut partition [Blanco 2009, Table 1]: connected components first, then
 /// bisections. Independent of the order of the nodes and of the number of threads. The empty graph

@@ -44,6 +44,9 @@ class WeightedGraph {
   std::vector<Arc> arcs() const;
 
  private:
+  /// Orders each row, sums it and drops the zeros; throws where a pair is repeated.
+  void sort_and_sum();
+
   std::vector<int64_t> offsets_{0};
   std::vector<Neighbor> neighbors_;
   std::vector<double> degrees_;
