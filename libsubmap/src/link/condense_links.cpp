@@ -5,6 +5,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <map>
 #include <optional>
