@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hmt/graph/pose_covariance.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <string>
+#include <variant>
+
+#include "hmt/graph/input_error.hpp"
+#include "pose_problem.hpp"
+
+namespace hmt::graph {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+using Cholesky = Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+
+/// A pivot below this share of its diagonal entry is zero up to the rounding of the elimination.
+constexpr double kSingularPivot = 1e-13;
+
+/// Position of every free node in a fill-reducing elimination order; -1 for a held node.
+std::vector<int> elimination_order(const PoseGraph& graph, const std::vector<bool>& held) {
+  std::vector<int> free_index(held.size(), -1);
+  int count = 0;
+  for (size_t node = 0; node < held.size(); ++node)
+    if (!held[node]) free_index[node] = count++;
+  std::vector<Eigen::Triplet<double>> pattern;
+  for (const PoseGraphEdge& edge : graph.edges) {
+    const int a = free_index[static_cast<size_t>(edge.from)];
+    const int b = free_index[static_cast<size_t>(edge.to)];
+    if (a < 0 || b < 0) continue;
+    pattern.emplace_back(a, b, 1.0);
+    pattern.emplace_back(b, a, 1.0);
+  }
+  for (int i = 0; i < count; ++i) pattern.emplace_back(i, i, 1.0);
+  SparseMatrix adjacency(count, count);
+  adjacency.setFromTriplets(pattern.begin(), pattern.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> old_of_new;
+  Eigen::AMDOrdering<int>()(adjacency, old_of_new);
+  std::vector<int> new_of_old(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) new_of_old[static_cast<size_t>(old_of_new.indices()(i))] = i;
+  for (int& index : free_index)
+    if (index >= 0) index = new_of_old[static_cast<size_t>(index)];
+  return free_index;
+}
+
+/// The factor L of the information matrix of all free poses, L L^T = sum of J^T Omega J, and the
+/// covariance of linear functions of the poses from it.
+template <class Chart>
+class InformationFactor {
+ public:
+  using Matrix = typename Chart::Matrix;
+
+  explicit InformationFactor(const PoseGraph& graph)
+      : held_(held_nodes(graph)), slot_(elimination_order(graph, held_)) {
+    parameters_.resize(graph.poses.size() * Chart::kParameters);
+    for (size_t node = 0; node < graph.poses.size(); ++node)
+      Chart::store(graph.poses[node], parameters_.data() + node * Chart::kParameters);
+    factorize(graph);
+  }
+
+  bool ok() const { return ok_; }
+  size_t num_nodes() const { return slot_.size(); }
+
+  Matrix6d marginal(int node) const {
+    std::array<double, Chart::kParameters> world;
+    Chart::store(Pose{}, world.data());
+    const Pose T_world_node = Chart::load(parameters(node));
+    Matrix J_world, J_node;
+    Chart::linearize(typename Chart::Measurement(T_world_node), world.data(), parameters(node),
+                     J_world, J_node);
+    return covariance({{{slot(node), J_node}, {-1, J_node}}});
+  }
+
+  Matrix6d relative(int a, int b) const {
+    const Pose T_a_b = relative_pose(Chart::load(parameters(a)), Chart::load(parameters(b)));
+    Matrix J_a, J_b;
+    Chart::linearize(typename Chart::Measurement(T_a_b), parameters(a), parameters(b), J_a, J_b);
+    if (a == b) return Matrix6d::Zero();
+    return covariance({{{slot(a), J_a}, {slot(b), J_b}}});
+  }
+
+ private:
+  static constexpr int kSize = Chart::kTangent;
+  using Row = Eigen::Matrix<double, 1, kSize>;
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, kSize, Eigen::RowMajor>;
+  struct Term {
+    int slot;
+    Matrix J;
+  };
+
+  int slot(int node) const { return slot_[static_cast<size_t>(node)]; }
+  const double* parameters(int node) const {
+    return parameters_.data() + static_cast<size_t>(node) * Chart::kParameters;
+  }
+
+  void factorize(const PoseGraph& graph) {
+    const SparseMatrix information = information_matrix(graph);
+    cholesky_.compute(information);
+    ok_ = cholesky_.info() == Eigen::Success;
+    const SparseMatrix& L = cholesky_.matrixL().nestedExpression();
+    for (int j = 0; ok_ && j < L.cols(); ++j) {
+      const double pivot = L.valuePtr()[L.outerIndexPtr()[j]];
+      ok_ = pivot * pivot > kSingularPivot * information.coeff(j, j);
+    }
+  }
+
+  SparseMatrix information_matrix(const PoseGraph& graph) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&entries](int row_slot, int column_slot, const Matrix& block) {
+      if (row_slot < column_slot || column_slot < 0) return;
+      for (int r = 0; r < kSize; ++r)
+        for (int c = 0; c < kSize; ++c)
+          if (row_slot != column_slot || r >= c)
+            entries.emplace_back(row_slot * kSize + r, column_slot * kSize + c, block(r, c));
+    };
+    for (const PoseGraphEdge& edge : graph.edges) {
+      Matrix J_from, J_to;
+      EdgeFactor<Chart>(edge).linearize(parameters(edge.from), parameters(edge.to), J_from, J_to);
+      const int from = slot(edge.from);
+      const int to = slot(edge.to);
+      add(from, from, J_from.transpose() * J_from);
+      add(to, to, J_to.transpose() * J_to);
+      add(from, to, J_from.transpose() * J_to);
+      add(to, from, J_to.transpose() * J_from);
+    }
+    const auto free_nodes = static_cast<int>(std::count(held_.begin(), held_.end(), false));
+    SparseMatrix information(free_nodes * kSize, free_nodes * kSize);
+    information.setFromTriplets(entries.begin(), entries.end());
+    return information;
+  }
+
+  /// S = (sum of J E) H^-1 (sum of J E)^T = Y^T Y with L Y = (sum of J E)^T. Y is zero outside the
+  /// paths from the terms to the root of the elimination tree, so only these are walked.
+  Matrix6d covariance(const std::array<Term, 2>& terms) const {
+    const SparseMatrix& L = cholesky_.matrixL().nestedExpression();
+    Columns& y = workspace_.local();
+    if (y.rows() != L.rows()) y.setZero(L.rows(), kSize);
+    const std::vector<int> path = union_of_paths(terms, L);
+    for (const Term& term : terms)
+      if (term.slot >= 0) y.template middleRows<kSize>(term.slot * kSize) += term.J.transpose();
+    Eigen::Matrix<double, kSize, kSize> sum = Eigen::Matrix<double, kSize, kSize>::Zero();
+    for (const int j : path) {
+      int entry = L.outerIndexPtr()[j];
+      const Row y_j = y.row(j) / L.valuePtr()[entry];
+      for (++entry; entry < L.outerIndexPtr()[j + 1]; ++entry)
+        y.row(L.innerIndexPtr()[entry]) -= L.valuePtr()[entry] * y_j;
+      sum += y_j.transpose() * y_j;
+      y.row(j).setZero();
+    }
+    return from_chart_block<Chart>(sum);
+  }
+
+  /// Ascending union of the paths; the parent of a column is its first entry below the diagonal.
+  static std::vector<int> union_of_paths(const std::array<Term, 2>& terms, const SparseMatrix& L) {
+    std::vector<int> path;
+    for (const Term& term : terms) {
+      if (term.slot < 0) continue;
+      const auto middle = static_cast<std::ptrdiff_t>(path.size());
+      for (int k = 0; k < kSize; ++k) path.push_back(term.slot * kSize + k);
+      for (int j = path.back();;) {
+        const int parent_entry = L.outerIndexPtr()[j] + 1;
+        if (parent_entry >= L.outerIndexPtr()[j + 1]) break;
+        j = L.innerIndexPtr()[parent_entry];
+        path.push_back(j);
+      }
+      std::inplace_merge(path.begin(), path.begin() + middle, path.end());
+    }
+    path.erase(std::unique(path.begin(), path.end()), path.end());
+    return path;
+  }
+
+  std::vector<bool> held_;
+  std::vector<int> slot_;
+  std::vector<double> parameters_;
+  Cholesky cholesky_;
+  bool ok_ = false;
+  /// All zero between calls.
+  mutable tbb::enumerable_thread_specific<Columns> workspace_;
+};
+
+}  // namespace
+
+struct PoseCovariance::Impl {
+  explicit Impl(const PoseGraph& graph) : component(connected_components(graph)) {
+    if (graph.space == Space::se2)
+      factor.emplace<InformationFactor<PlanarChart>>(graph);
+    else
+      factor.emplace<InformationFactor<SpatialChart>>(graph);
+    anchored.assign(graph.poses.size(), false);
+    for (const int node : graph.fixed)
+      anchored[static_cast<size_t>(component[static_cast<size_t>(node)])] = true;
+  }
+
+  void check(int node) const {
+    if (node < 0 || static_cast<size_t>(node) >= component.size())
+      throw InputError("covariance of node " + std::to_string(node) + ": the graph has " +
+                       std::to_string(component.size()) + " nodes");
+  }
+
+  /// The gauge says nothing about two components that nobody fixed.
+  bool related(int a, int b) const {
+    const auto own_a = static_cast<size_t>(component[static_cast<size_t>(a)]);
+    const auto own_b = static_cast<size_t>(component[static_cast<size_t>(b)]);
+    return own_a == own_b || (anchored[own_a] && anchored[own_b]);
+  }
+
+  std::vector<int> component;
+  std::vector<bool> anchored;
+  std::variant<std::monostate, InformationFactor<PlanarChart>, InformationFactor<SpatialChart>>
+      factor;
+};
+
+namespace {
+
+/// Calls `function` with the factor that the variant holds.
+template <class Variant, class Function>
+auto visit_factor(const Variant& factor, const Function& function) {
+  return factor.index() == 1 ? function(std::get<1>(factor)) : function(std::get<2>(factor));
+}
+
+}  // namespace
+
+PoseCovariance::PoseCovariance(const PoseGraph& graph) {
+  check_pose_graph(graph);
+  impl_ = std::make_unique<Impl>(graph);
+}
+PoseCovariance::~PoseCovariance() = default;
+PoseCovariance::PoseCovariance(PoseCovariance&&) noexcept = default;
+PoseCovariance& PoseCovariance::operator=(PoseCovariance&&) noexcept = default;
+
+bool PoseCovariance::ok() const {
+  return visit_factor(impl_->factor, [](const auto& factor) { return factor.ok(); });
+}
+
+std::optional<Matrix6d> PoseCovariance::marginal(int node) const {
+  impl_->check(node);
+  if (!ok()) return std::nullopt;
+  return visit_factor(impl_->factor, [&](const auto& factor) { return factor.marginal(node); });
+}
+
+std::optional<Matrix6d> PoseCovariance::relative(int a, int b) const {
+  impl_->check(a);
+  impl_->check(b);
+  if (!ok() || !impl_->related(a, b)) return std::nullopt;
+  return visit_factor(impl_->factor, [&](const auto& factor) { return factor.relative(a, b); });
+}
+
+std::vector<std::optional<Matrix6d>> PoseCovariance::relative(
+    std::span<const std::pair<int, int>> pairs, int threads) const {
+  std::vector<std::optional<Matrix6d>> covariances(pairs.size());
+  tbb::task_arena(std::max(1, threads)).execute([&] {
+    tbb::parallel_for(size_t{0}, pairs.size(), [&](size_t k) {
+      covariances[k] = relative(pairs[k].first, pairs[k].second);
+    });
+  });
+  return covariances;
+}
+
+}  // namespace hmt::graph

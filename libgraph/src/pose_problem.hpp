@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hmt/graph/pose_graph.hpp"
+#include "hmt/graph/pose_optimizer.hpp"
+#include "pose_factor.hpp"
+
+namespace hmt::graph {
+
+/// Throws InputError naming the first edge, pose or fixed node whose numbers are invalid: a node
+/// outside the graph, an edge from a node to itself, a number that is not finite, an information
+/// matrix that is not symmetric or has a negative eigenvalue beyond rounding.
+void check_pose_graph(const PoseGraph& graph);
+
+/// The same for edges alone, whose nodes must lie in [0, num_poses).
+void check_edges(std::span<const PoseGraphEdge> edges, size_t num_poses);
+
+/// Component of each node, numbered by smallest node.
+std::vector<int> connected_components(const PoseGraph& graph);
+
+/// One flag a node: held at its pose. The fixed nodes of the graph, and the smallest node of each
+/// component that has none.
+std::vector<bool> held_nodes(const PoseGraph& graph);
+
+/// What one call of the solver did.
+struct SolveReport {
+  Termination termination = Termination::nothing_to_do;
+  std::string message;
+  int iterations = 0;
+};
+
+/// A pose graph as the solver sees it: parameters of every pose and a factor for every edge.
+template <class Chart>
+class PoseProblem {
+ public:
+  explicit PoseProblem(const PoseGraph& graph);
+
+  /// Minimizes the sum over edges of weight * rho(r^T Omega r) from the present poses; rho is the
+  /// identity or, with `huber_chi2` > 0, linear in r beyond that chi2. An edge of weight zero is
+  /// left out.
+  SolveReport solve(const std::vector<double>& edge_weights, double huber_chi2, int max_iterations);
+
+  void set_poses(const std::vector<Pose>& poses);
+  /// The present poses; held nodes come back exactly as given.
+  std::vector<Pose> poses() const;
+  /// r^T Omega r of every edge at the present poses.
+  std::vector<double> edge_chi2() const;
+
+ private:
+  const double* parameters(int node) const {
+    return parameters_.data() + static_cast<size_t>(node) * Chart::kParameters;
+  }
+
+  const PoseGraph& graph_;
+  std::vector<bool> held_;
+  std::vector<EdgeFactor<Chart>> factors_;
+  std::vector<double> parameters_;
+};
+
+extern template class PoseProblem<PlanarChart>;
+extern template class PoseProblem<SpatialChart>;
+
+}  // namespace hmt::graph

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust_weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hmt/graph/chi_squared.hpp"
+
+namespace hmt::graph {
+namespace {
+
+constexpr double kInlierProbability = 0.999;
+/// Growth of mu from one surrogate to the next [Yang 2020, Remark 5].
+constexpr double kMuFactor = 1.4;
+/// The surrogate moves on before its minimum is exact; only the last solve needs that.
+constexpr int kIterationsPerSurrogate = 2;
+/// Rounds in which edges may still change sides at the end; they settle in one or two.
+constexpr int kVerdictRounds = 5;
+
+double largest_doubted(const std::vector<double>& chi2, const std::vector<bool>& trusted) {
+  double largest = 0;
+  for (size_t k = 0; k < chi2.size(); ++k)
+    if (!trusted[k]) largest = std::max(largest, chi2[k]);
+  return largest;
+}
+
+bool is_binary(const std::vector<double>& weights) {
+  return std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0 || w == 1; });
+}
+
+std::vector<double> weights_at(const std::vector<double>& chi2, const std::vector<bool>& trusted,
+                               double limit, double mu) {
+  std::vector<double> weights(chi2.size(), 1.0);
+  for (size_t k = 0; k < chi2.size(); ++k)
+    if (!trusted[k]) weights[k] = truncated_weight(chi2[k], limit, mu);
+  return weights;
+}
+
+/// Solves over the inliers until no edge changes sides.
+template <class Chart>
+SolveReport settle(PoseProblem<Chart>& problem, const std::vector<bool>& trusted, double limit,
+                   int max_iterations, std::vector<double> weights, std::vector<bool>& inlier) {
+  SolveReport total;
+  for (int round = 0; round < kVerdictRounds; ++round) {
+    const SolveReport solved = problem.solve(weights, 0, max_iterations);
+    total = {solved.termination, solved.message, total.iterations + solved.iterations};
+    const std::vector<double> chi2 = problem.edge_chi2();
+    bool changed = false;
+    for (size_t k = 0; k < chi2.size(); ++k) {
+      inlier[k] = trusted[k] || chi2[k] <= limit;
+      const double weight = inlier[k] ? 1.0 : 0.0;
+      changed = changed || weight != weights[k];
+      weights[k] = weight;
+    }
+    if (!changed) break;
+  }
+  return total;
+}
+
+}  // namespace
+
+double truncated_weight(double chi2, double limit, double mu) {
+  if (chi2 <= mu / (mu + 1) * limit) return 1;
+  if (chi2 >= (mu + 1) / mu * limit) return 0;
+  return std::clamp(std::sqrt(limit / chi2 * mu * (mu + 1)) - mu, 0.0, 1.0);
+}
+
+template <class Chart>
+SolveReport solve_gnc(PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
+                      int max_iterations, std::vector<bool>& inlier) {
+  const double limit = chi_squared_quantile(Chart::kTangent, kInlierProbability);
+  std::vector<double> weights(trusted.size(), 1.0);
+  int iterations = problem.solve(weights, 0, max_iterations).iterations;
+  std::vector<double> chi2 = problem.edge_chi2();
+  const double largest = largest_doubted(chi2, trusted);
+  if (2 * largest > limit) {
+    for (double mu = limit / (2 * largest - limit);; mu *= kMuFactor) {
+      weights = weights_at(chi2, trusted, limit, mu);
+      if (is_binary(weights)) break;
+      iterations += problem.solve(weights, 0, kIterationsPerSurrogate).iterations;
+      chi2 = problem.edge_chi2();
+    }
+  }
+  SolveReport report = settle(problem, trusted, limit, max_iterations, weights, inlier);
+  report.iterations += iterations;
+  return report;
+}
+
+template SolveReport solve_gnc(PoseProblem<PlanarChart>&, const std::vector<bool>&, int,
+                               std::vector<bool>&);
+template SolveReport solve_gnc(PoseProblem<SpatialChart>&, const std::vector<bool>&, int,
+                               std::vector<bool>&);
+
+}  // namespace hmt::graph
