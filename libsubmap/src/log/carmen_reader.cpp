@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "text_fields.hpp"
+
 namespace hmt::submap {
 namespace {
 

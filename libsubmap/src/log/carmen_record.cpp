@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carmen_record.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "text_fields.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -14,32 +15,10 @@ constexpr double kDegree = std::numbers::pi / 180;
 /// More than any planar scanner has; a greater count is damage.
 constexpr int64_t kMaxBeams = 100000;
 
-template <typename Number>
-std::optional<Number> to_number(std::string_view field) {
-  if (field.starts_with('+')) field.remove_prefix(1);
-  Number value{};
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc{} || end != field.data() + field.size()) return std::nullopt;
-  return value;
-}
-
-double take_number(std::string_view& fields, const char* name) {
-  const std::string_view field = take_field(fields);
-  if (field.empty()) throw std::invalid_argument(std::string("line ends before ") + name);
-  if (const auto value = to_number<double>(field)) return *value;
-  throw std::invalid_argument(std::string(name) + " is not a number");
-}
-
-double take_finite(std::string_view& fields, const char* name) {
-  const double value = take_number(fields, name);
-  if (!std::isfinite(value)) throw std::invalid_argument(std::string(name) + " is not finite");
-  return value;
-}
-
 int64_t take_count(std::string_view& fields, const char* name) {
   const std::string_view field = take_field(fields);
-  const auto value = to_number<int64_t>(field);
-  if (!value || *value < 0 || *value > kMaxBeams)
+  const auto value = to_count(field);
+  if (!value || *value > kMaxBeams)
     throw std::invalid_argument(std::string(name) + " is not a count");
   return *value;
 }
@@ -89,18 +68,6 @@ void set_sick_angles(CarmenScan& scan) {
 
 }  // namespace
 
-std::string_view take_field(std::string_view& fields) {
-  const size_t begin = fields.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) {
-    fields = {};
-    return {};
-  }
-  const size_t end = std::min(fields.find_first_of(" \t", begin), fields.size());
-  const std::string_view field = fields.substr(begin, end - begin);
-  fields.remove_prefix(end);
-  return field;
-}
-
 CarmenScan parse_flaser(std::string_view fields) {
   CarmenScan scan;
   scan.ranges_m = take_numbers(fields, "range");
@@ -135,7 +102,7 @@ CarmenScan parse_robotlaser(std::string_view fields) {
 std::optional<double> parse_max_range_param(std::string_view fields) {
   const std::string_view name = take_field(fields);
   if (name != "robot_front_laser_max" && name != "robot_frontlaser_max") return std::nullopt;
-  const auto value = to_number<double>(take_field(fields));
+  const auto value = to_number(take_field(fields));
   return value && std::isfinite(*value) && *value > 0 ? value : std::nullopt;
 }
 

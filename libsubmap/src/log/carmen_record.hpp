@@ -43,7 +43,4 @@ CarmenScan parse_robotlaser(std::string_view fields);
 /// nothing for other parameters. `fields` is the line after the message name.
 std::optional<double> parse_max_range_param(std::string_view fields);
 
-/// Splits the first field off `fields`; empty at the end.
-std::string_view take_field(std::string_view& fields);
-
 }  // namespace hmt::submap

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hmt/submap/export/trajectory.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "../log/line_source.hpp"
+#include "../log/text_fields.hpp"
+#include "hmt/graph/input_error.hpp"
+#include "hmt/submap/export/atomic_file.hpp"
+
+namespace hmt::submap {
+namespace {
+
+constexpr int kPoseDecimals = 9;
+constexpr size_t kLeastStampDecimals = 6;
+
+StampedPose parse_tum(std::string_view fields) {
+  StampedPose pose;
+  pose.stamp_s = take_finite(fields, "stamp");
+  for (int k = 0; k < 3; ++k) pose.T_world_robot.translation[k] = take_finite(fields, "position");
+  Eigen::Vector4d q;  // x y z w, as in the file
+  for (int k = 0; k < 4; ++k) q[k] = take_finite(fields, "quaternion");
+  if (!take_field(fields).empty()) throw std::invalid_argument("more than 8 fields");
+  if (q.norm() < 1e-6) throw std::invalid_argument("quaternion of length zero");
+  pose.T_world_robot.rotation = Eigen::Quaterniond(q.normalized());
+  return pose;
+}
+
+void append_stamp(std::string& out, double stamp_s) {
+  std::array<char, 400> digits{};
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), stamp_s, std::chars_format::fixed)
+          .ptr;
+  std::string text(digits.data(), end);
+  if (text.find('.') == std::string::npos) text += '.';
+  const size_t decimals = text.size() - 1 - text.find('.');
+  if (decimals < kLeastStampDecimals) text.append(kLeastStampDecimals - decimals, '0');
+  out += text;
+}
+
+void append_number(std::string& out, double value) {
+  std::array<char, 400> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::fixed, kPoseDecimals)
+                       .ptr;
+  out += ' ';
+  out.append(digits.data(), end);
+}
+
+}  // namespace
+
+std::vector<StampedPose> read_tum(const std::filesystem::path& path) {
+  LineSource lines(path);
+  std::vector<StampedPose> trajectory;
+  while (const auto line = lines.next()) {
+    const std::string_view fields = without_comment(*line);
+    if (fields.empty()) continue;
+    try {
+      trajectory.push_back(parse_tum(fields));
+    } catch (const std::invalid_argument& error) {
+      throw graph::InputError(lines.place() + ": " + error.what() +
+                              "; a TUM line is 'stamp x y z qx qy qz qw'");
+    }
+  }
+  if (!lines.damage().empty()) throw graph::InputError(path.string() + ": " + lines.damage());
+  if (trajectory.empty()) throw graph::InputError(path.string() + ": no poses in the file");
+  return trajectory;
+}
+
+void write_tum(const std::filesystem::path& path, std::span<const StampedPose> trajectory) {
+  AtomicFile file(path);
+  std::string line;
+  for (const auto& [stamp_s, T_world_robot] : trajectory) {
+    line.clear();
+    append_stamp(line, stamp_s);
+    for (const double value : T_world_robot.translation) append_number(line, value);
+    const Eigen::Vector4d q = T_world_robot.rotation.coeffs();
+    for (const double value : q) append_number(line, value);
+    line += '\n';
+    file.write(line);
+  }
+  file.commit();
+}
+
+}  // namespace hmt::submap
