@@ -5,4 +5,8 @@
 #include "command.hpp"
 
 // One function a command, each in the .cpp of its name; the table is in main.cpp.
-namespace hmt::apps {}  // namespace hmt::apps
+namespace hmt::apps {
+
+Action add_evaluate(CLI::App& command);
+
+}  // namespace hmt::apps

@@ -17,7 +17,9 @@ namespace hmt::apps {
 namespace {
 
 // In the order of the work; one file a command.
-const std::vector<Command> kCommands = {};
+const std::vector<Command> kCommands = {
+    {"evaluate", "Errors of a map or trajectory against truth", add_evaluate},
+};
 
 void add_globals(CLI::App& app, Globals& globals) {
   app.add_flag("--json", globals.json, "Print one JSON object on stdout; messages go to stderr");
