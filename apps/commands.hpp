@@ -8,5 +8,7 @@
 namespace hmt::apps {
 
 Action add_evaluate(CLI::App& command);
+Action add_partition(CLI::App& command);
+Action add_compare(CLI::App& command);
 
 }  // namespace hmt::apps
