@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,7 @@ class RegistrationTarget {
   RegistrationTarget(RegistrationTarget&&) noexcept;
   RegistrationTarget& operator=(RegistrationTarget&&) noexcept;
 
+  /// Number of surface elements: points of nearly equal place and normal are merged into one.
   size_t size() const;
 
   struct Impl;
@@ -32,12 +34,20 @@ class RegistrationTarget {
   std::unique_ptr<Impl> impl_;
 };
 
+/// What is known of a pose before the registration.
+struct PosePrior {
+  Pose T_target_source;
+  Matrix6d information = Matrix6d::Zero();  ///< tangent of Pose, frame source; may be singular
+};
+
 struct RegistrationOptions {
   Space space = Space::se2;
   /// First radius of the search for corresponding points, metres; shrinks with the residuals. Raise
   /// it for worse guesses.
   double max_correspondence_m = 0.5;
   int max_iterations = 40;
+  /// Pulls the result where the surfaces leave it free, such as along a corridor.
+  std::optional<PosePrior> prior;
 };
 
 /// Result of a registration.
@@ -46,17 +56,26 @@ struct Registration {
   Termination termination = Termination::too_few_points;
   Pose T_target_source;
   /// Inverse covariance of T_target_source (tangent of Pose, frame source), from the normals and
-  /// the residuals at the result; rows of directions that the geometry does not fix are (near)
-  /// zero.
+  /// the residuals at the result, without the prior; rows of directions that the geometry does not
+  /// fix are (near) zero.
   Matrix6d information = Matrix6d::Zero();
-  /// Share of the source's points with a corresponding surface at the result, in [0, 1].
+  /// Share of the source's points with a normal that meet a surface at the result, in [0, 1].
   double inlier_fraction = 0;
   /// Root mean square distance of the corresponding points along the normals, metres.
   double rmse_m = 0;
   int inliers = 0;
 };
 
-/// Robust point-to-surface registration of a source onto a target from a guess.
+/// Robust point-to-surface registration of a source onto a target from a guess: Gauss-Newton on
+///   sum_i w(r_i) r_i^2 / (sigma_i^2 + sigma_j^2),  r_i = n_j . (T_target_source p_i - q_j),
+/// j the nearest target element whose normal agrees, w of Geman-McClure with a scale that follows
+/// the residuals. Planar problems solve for x, y and rz, the others for all six.
+///
+/// The information counts a target element that many points share once, takes the chance part of
+/// the normals' directions out (a corridor's walls say nothing about the way along it), widens with
+/// the residuals' variance and their correlation from point to point, and never goes below what
+/// range quantization leaves. Fewer than three usable points: too_few_points, the guess, no
+/// information.
 Registration register_surface(const Surface& source, const RegistrationTarget& target,
                               const Pose& T_target_source_guess,
                               const RegistrationOptions& options);

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "fit_noise.hpp"
+#include "point_grid.hpp"
+#include "surface_normals.hpp"
+
+namespace hmt::submap {
+namespace {
+
+constexpr int kPlaneParameters = 3;
+constexpr double kRadius_m = 0.25;
+constexpr double kCell_m = 0.5;
+// Beams of a spinning sensor are much coarser in elevation than in azimuth, so the radius is wide
+// in steps of the finer one; it stays below what a facade is flat over.
+constexpr double kRadiusSteps = 6;
+constexpr double kLargestRadius_m = 1.5;
+
+LocalFit fit_plane(const std::vector<Eigen::Vector3d>& points, const PointGrid& grid, size_t i,
+                   double radius_m) {
+  LocalFitSums sums;
+  grid.visit_near(points[i], radius_m, [&](size_t k) {
+    const Eigen::Vector3d offset = points[k] - points[i];
+    if (offset.squaredNorm() <= radius_m * radius_m) sums.add(offset);
+  });
+  if (sums.points() < kPlaneParameters + 1) return {.points = sums.points()};
+  return sums.plane();
+}
+
+}  // namespace
+
+std::vector<PointNormal> cloud_normals(const std::vector<Eigen::Vector3d>& points_sensor,
+                                       double beam_step_rad) {
+  const PointGrid grid(points_sensor, kCell_m);
+  std::vector<LocalFit> fits;
+  std::vector<double> radii_m;
+  for (size_t i = 0; i < points_sensor.size(); ++i) {
+    const double step_m = points_sensor[i].norm() * beam_step_rad;
+    radii_m.push_back(std::clamp(kRadiusSteps * step_m, kRadius_m, kLargestRadius_m));
+    fits.push_back(fit_plane(points_sensor, grid, i, radii_m[i]));
+  }
+  const double noise_m = median_noise_m(fits, kPlaneParameters);
+  std::vector<PointNormal> normals(points_sensor.size());
+  for (size_t i = 0; i < normals.size(); ++i) {
+    normals[i].sigma_m = noise_m;
+    if (is_smooth(fits[i], kPlaneParameters, noise_m))
+      normals[i] = normal_from_fit(fits[i], kPlaneParameters, noise_m, points_sensor[i]);
+    // Points spread evenly over the disc of the fit are about this far from each other.
+    normals[i].spacing_m = radii_m[i] / std::sqrt(std::max(1, fits[i].points));
+  }
+  return normals;
+}
+
+}  // namespace hmt::submap

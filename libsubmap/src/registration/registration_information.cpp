@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "registration_information.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace hmt::submap {
+namespace {
+
+// A point meets the surface within so many standard deviations.
+constexpr double kInlierDeviations = 3;
+// Ranges come in steps of a centimetre from common lasers: uniform error of 2.9 mm that all beams
+// on a wall may share, so no number of beams takes it away.
+constexpr double kSharedError_m = 0.003;
+
+struct InlierSums {
+  Matrix6d information = Matrix6d::Zero();
+  double chi2 = 0;
+  double inflation = 0;  // sum over inliers of (s2 + m t2) / (s2 + t2)
+  double residual2 = 0;
+  double range2 = 0;
+  int count = 0;
+};
+
+// J J^T of a match without the share that the chance error of the normal's direction adds: a
+// measured normal cos(e) n + sin(e) t has E[n n^T] = (1 - v) n n^T + v t t^T, v = E[e^2].
+Matrix6d unbiased_outer(const Match& match, const Eigen::Vector3d& p_source, Space space) {
+  const Eigen::Vector3d n = match.jacobian.head<3>();
+  Eigen::Matrix3d along = -n * n.transpose();
+  if (space == Space::se2)
+    along.topLeftCorner<2, 2>() += Eigen::Matrix2d::Identity();
+  else
+    along += Eigen::Matrix3d::Identity();
+  // Residual n . (p + w x p + d): the rows of the map from the tangent to the motion of p.
+  Eigen::Matrix<double, 3, 6> motion = Eigen::Matrix<double, 3, 6>::Zero();
+  motion.leftCols<3>().setIdentity();
+  const Eigen::Vector3d& p = p_source;
+  motion.rightCols<3>() << 0, p.z(), -p.y(), -p.z(), 0, p.x(), p.y(), -p.x(), 0;
+  const double v = std::min(match.normal_variance, 0.1);
+  return match.jacobian * match.jacobian.transpose() - v * motion.transpose() * along * motion;
+}
+
+std::vector<int> shared_elements(const std::vector<Match>& matches) {
+  uint32_t largest = 0;
+  for (const Match& match : matches) largest = std::max(largest, match.element);
+  std::vector<int> count(largest + 1, 0);
+  for (const Match& match : matches) ++count[match.element];
+  return count;
+}
+
+InlierSums sum_inliers(const SurfaceMatcher& matcher, Space space) {
+  InlierSums sums;
+  const std::vector<int> sharing = shared_elements(matcher.matches());
+  for (const Match& match : matcher.matches()) {
+    if (std::abs(match.residual_m) > matcher.scale_m()) continue;
+    const Eigen::Vector3d& p = matcher.source().points_robot[match.source];
+    const double independent =
+        match.source_variance + sharing[match.element] * match.target_variance;
+    sums.information += unbiased_outer(match, p, space) / independent;
+    sums.chi2 += match.residual_m * match.residual_m / match.variance();
+    sums.inflation += independent / match.variance();
+    sums.residual2 += match.residual_m * match.residual_m;
+    sums.range2 += p.squaredNorm();
+    ++sums.count;
+  }
+  return sums;
+}
+
+// Variance of a mean of correlated residuals over that of as many independent ones: 1 + 2 sum_k
+// rho_k, lags up to the first at which the correlation is lost in its own noise.
+double correlation_inflation(const SurfaceMatcher& matcher) {
+  std::vector<double> whitened;
+  for (const Match& match : matcher.matches())
+    if (std::abs(match.residual_m) <= matcher.scale_m())
+      whitened.push_back(match.residual_m / std::sqrt(match.variance()));
+  double power = 0;
+  for (const double r : whitened) power += r * r;
+  if (power <= 0) return 1;
+  const double lost = 1 / std::sqrt(static_cast<double>(whitened.size()));
+  double inflation = 1;
+  for (size_t lag = 1; lag < whitened.size() / 4; ++lag) {
+    double product = 0;
+    for (size_t i = lag; i < whitened.size(); ++i) product += whitened[i] * whitened[i - lag];
+    if (product / power < lost) break;
+    inflation += 2 * product / power;
+  }
+  return inflation;
+}
+
+// (I^-1 + B)^-1 for a diagonal B, also where I is singular; negative eigenvalues, which chance
+// leaves after the correction of the normals, count as zero.
+Matrix6d with_shared_error(const Matrix6d& information, double range_m) {
+  Vector6d shared;
+  shared << Eigen::Vector3d::Constant(kSharedError_m),
+      Eigen::Vector3d::Constant(kSharedError_m / range_m);
+  const Matrix6d scaled = shared.asDiagonal() * information * shared.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen((scaled + scaled.transpose()) / 2);
+  const Vector6d kept =
+      eigen.eigenvalues().unaryExpr([](double l) { return l > 0 ? l / (1 + l) : 0.0; });
+  const Matrix6d limited =
+      eigen.eigenvectors() * kept.asDiagonal() * eigen.eigenvectors().transpose();
+  const Vector6d inverse = shared.cwiseInverse();
+  return inverse.asDiagonal() * limited * inverse.asDiagonal();
+}
+
+}  // namespace
+
+void summarize(const SurfaceMatcher& matcher, Space space, Registration& result) {
+  for (const Match& match : matcher.matches())
+    if (std::abs(match.residual_m) <=
+        std::max(matcher.scale_m(), kInlierDeviations * std::sqrt(match.variance())))
+      ++result.inliers;
+  result.inlier_fraction =
+      result.inliers / static_cast<double>(std::max<size_t>(1, matcher.usable()));
+  const InlierSums sums = sum_inliers(matcher, space);
+  const int unknowns = space == Space::se2 ? 3 : 6;
+  if (sums.count <= unknowns) return;
+  result.rmse_m = std::sqrt(sums.residual2 / sums.count);
+  const double variance_factor =
+      sums.chi2 / (sums.count - unknowns) * correlation_inflation(matcher);
+  const double accounted = sums.inflation / sums.count;
+  Matrix6d information = sums.information / std::max(1.0, variance_factor / accounted);
+  if (space == Space::se2)
+    for (const int i : {2, 3, 4}) {
+      information.row(i).setZero();
+      information.col(i).setZero();
+    }
+  result.information = with_shared_error(information, std::sqrt(sums.range2 / sums.count));
+}
+
+}  // namespace hmt::submap

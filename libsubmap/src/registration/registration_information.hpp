@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "surface_matches.hpp"
+
+namespace hmt::submap {
+
+/// Fills in information, inliers, inlier_fraction and rmse_m from the last matches.
+void summarize(const SurfaceMatcher& matcher, Space space, Registration& result);
+
+}  // namespace hmt::submap

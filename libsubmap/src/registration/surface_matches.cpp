@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface_matches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hmt::submap {
+namespace {
+
+// Normals that differ by more than 45 degrees show different surfaces.
+constexpr double kLeastNormalAgreement = 0.7;
+// The scale of the robust weight in standard deviations of the bulk of the residuals.
+constexpr double kScaleDeviations = 3;
+// Standard deviation of a normal distribution over the median of its absolute values.
+constexpr double kDeviationOverMedian = 1.4826;
+// Neighbors on one surface are looked for at least this far.
+constexpr double kLeastRadius_m = 0.15;
+
+}  // namespace
+
+double robust_weight(double residual_m, double scale_m) {
+  const double s2 = scale_m * scale_m;
+  const double ratio = s2 / (s2 + residual_m * residual_m);
+  return ratio * ratio;
+}
+
+SurfaceMatcher::SurfaceMatcher(const Surface& source, const RegistrationTarget::Impl& target,
+                               double radius_m)
+    : source_(&source), target_(&target), radius_m_(radius_m), scale_m_(radius_m) {
+  for (uint32_t i = 0; i < source.size(); ++i)
+    if (!source.normals_robot[i].isZero(0)) usable_.push_back(i);
+  matches_.reserve(usable_.size());
+}
+
+const std::vector<Match>& SurfaceMatcher::match(const Pose& T_target_source) {
+  matches_.clear();
+  const Eigen::Matrix3d R = T_target_source.rotation_matrix();
+  for (const uint32_t i : usable_) find_match(i, T_target_source, R);
+  shrink();
+  return matches_;
+}
+
+void SurfaceMatcher::find_match(uint32_t i, const Pose& T_target_source, const Eigen::Matrix3d& R) {
+  const Eigen::Vector3d& p_source = source_->points_robot[i];
+  const Eigen::Vector3d p = R * p_source + T_target_source.translation;
+  const Eigen::Vector3d n = R * source_->normals_robot[i];
+  double best2 = radius_m_ * radius_m_;
+  uint32_t best = std::numeric_limits<uint32_t>::max();
+  target_->grid.visit_near(p, radius_m_, [&](size_t k) {
+    const SurfaceElement& element = target_->elements[k];
+    const double distance2 = (p - element.point).squaredNorm();
+    if (distance2 < best2 && n.dot(element.normal) > kLeastNormalAgreement) {
+      best2 = distance2;
+      best = static_cast<uint32_t>(k);
+    }
+  });
+  if (best == std::numeric_limits<uint32_t>::max()) return;
+  const SurfaceElement& element = target_->elements[best];
+  const Eigen::Vector3d normal_source = R.transpose() * element.normal;
+  Match match{.source = i, .element = best};
+  match.residual_m = element.normal.dot(p - element.point);
+  match.jacobian << normal_source, p_source.cross(normal_source);
+  match.source_variance = source_->sigma_m[i] * source_->sigma_m[i];
+  match.target_variance = element.variance;
+  match.normal_variance = element.normal_variance;
+  matches_.push_back(match);
+}
+
+void SurfaceMatcher::shrink() {
+  if (matches_.empty()) return;
+  sorted_.clear();
+  double variance = 0;
+  for (const Match& match : matches_) {
+    sorted_.push_back(std::abs(match.residual_m));
+    variance += match.variance();
+  }
+  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+  std::nth_element(sorted_.begin(), middle, sorted_.end());
+  const double noise_m = std::sqrt(variance / static_cast<double>(matches_.size()));
+  const double wanted_m = kScaleDeviations * std::max(noise_m, kDeviationOverMedian * *middle);
+  shrunk_ = wanted_m < 0.99 * scale_m_;
+  scale_m_ = std::min(scale_m_, wanted_m);
+  radius_m_ = std::min(radius_m_, std::max(kLeastRadius_m, 2 * scale_m_));
+}
+
+}  // namespace hmt::submap

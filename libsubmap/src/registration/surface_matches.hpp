@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "registration_target.hpp"
+
+namespace hmt::submap {
+
+/// A source point and the target element nearest to it.
+struct Match {
+  uint32_t source = 0;   ///< index of the point in the source
+  uint32_t element = 0;  ///< index of the element in the target
+  double residual_m = 0;
+  /// d residual / d tangent of T_target_source (frame source).
+  Vector6d jacobian = Vector6d::Zero();
+  double source_variance = 0;
+  double target_variance = 0;
+  double normal_variance = 0;
+
+  double variance() const { return source_variance + target_variance; }
+};
+
+/// Weight of Geman-McClure: (s^2 / (s^2 + r^2))^2, 1 at r = 0 and 1/4 at r = s.
+double robust_weight(double residual_m, double scale_m);
+
+/// Finds matches at changing poses, with a search radius and a robust scale that shrink with the
+/// residuals from call to call.
+class SurfaceMatcher {
+ public:
+  SurfaceMatcher(const Surface& source, const RegistrationTarget::Impl& target, double radius_m);
+
+  const std::vector<Match>& match(const Pose& T_target_source);
+  const std::vector<Match>& matches() const { return matches_; }
+  double scale_m() const { return scale_m_; }
+  /// Whether the last call narrowed the scale by more than a percent.
+  bool shrunk() const { return shrunk_; }
+  /// Number of source points that have a normal.
+  size_t usable() const { return usable_.size(); }
+  const Surface& source() const { return *source_; }
+
+ private:
+  void find_match(uint32_t i, const Pose& T_target_source, const Eigen::Matrix3d& R);
+  void shrink();
+
+  const Surface* source_;
+  const RegistrationTarget::Impl* target_;
+  std::vector<uint32_t> usable_;
+  std::vector<Match> matches_;
+  std::vector<double> sorted_;
+  double radius_m_;
+  double scale_m_;
+  bool shrunk_ = true;
+};
+
+}  // namespace hmt::submap
