@@ -15,6 +15,10 @@ namespace hmt::submap {
 struct OverlapOptions {
   /// Largest Mahalanobis distance of corresponding points [Blanco 2009, Sec. 3.1].
   double max_mahalanobis = 3.0;
+  /// A point that the uncertainty of the relative pose alone moves by more than this (root mean
+  /// square) matches nothing, > 0: its gate of three deviations would reach from one wall of a
+  /// corridor, or one jamb of a door, to the other, so that everything would match everything.
+  double max_pose_deviation_m = 0.3;
   /// Arcs below this overlap are left out, [0, 1).
   double min_overlap = 0.02;
 };
