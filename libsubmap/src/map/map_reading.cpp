@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "digest.hpp"
+#include "map_file_impl.hpp"
+#include "observation_codec.hpp"
+#include "table.hpp"
+
+namespace hmt::submap {
+namespace {
+
+// An octree of 5 cm cells that fills this would cover square kilometres.
+constexpr size_t kMaxOctreeBytes = size_t{1} << 30;
+
+LogReport read_log_report(Database& database, const TrackRecord& track) {
+  LogReport report;
+  report.observations = track.observations;
+  report.odometry_records = track.odometry_records;
+  for (const LogNote& note : read_list<LogNote>(database, "log_notes"))
+    (note.loss != 0 ? report.losses : report.notes)[note.text] = note.count;
+  return report;
+}
+
+void read_submap_keyframes(Database& database, Submap& submap, Digest& digest) {
+  Statement select(database, "SELECT * FROM submap_keyframes WHERE submap = ? ORDER BY position");
+  select.bind(1, int64_t{submap.id});
+  while (select.step()) {
+    RowReader row(select, digest);
+    int64_t id = 0;
+    int64_t position = 0;
+    SubmapKeyframe record;
+    row(id, position);
+    fields(row, record);
+    submap.keyframes.push_back(record.keyframe);
+    submap.T_submap_keyframe.push_back(record.T_submap_keyframe);
+    submap.covariances.push_back(record.covariance);
+  }
+}
+
+void read_submap_constraints(Database& database, Submap& submap, Digest& digest) {
+  Statement select(database, "SELECT * FROM submap_constraints WHERE submap = ? ORDER BY position");
+  select.bind(1, int64_t{submap.id});
+  while (select.step()) {
+    RowReader row(select, digest);
+    int64_t id = 0;
+    int64_t position = 0;
+    row(id, position, submap.constraints.emplace_back());
+  }
+}
+
+/// The submap in the current row of table submaps.
+Submap read_submap(Database& database, const Statement& select) {
+  Digest digest;
+  RowReader row(select, digest);
+  Submap submap;
+  int64_t keyframes = 0;
+  int64_t constraints = 0;
+  row(submap.id, submap.chi2, submap.degrees_of_freedom, keyframes, constraints);
+  read_submap_keyframes(database, submap, digest);
+  read_submap_constraints(database, submap, digest);
+  if (select.integer(kSubmapDigestColumn) != static_cast<int64_t>(digest.value()))
+    database.fail_damaged("submap " + std::to_string(submap.id) + " does not match its checksum");
+  return submap;
+}
+
+/// Throws InputError unless every index points at something: a checksum cannot see what was put
+/// together from different runs.
+class MapCheck {
+ public:
+  MapCheck(const Database& database, const HybridMap& map) : database_(&database), map_(&map) {}
+
+  void run() const {
+    check_track();
+    const size_t n = map_->track.keyframes.size();
+    require(map_->submap_of_keyframe.size() == n, "the partition has not one label a keyframe");
+    for (const int label : map_->submap_of_keyframe) require_index(label, num_submaps(), "label");
+    for (const Constraint& c : map_->constraints) check_pair(c.a, c.b, n, "constraint");
+    for (const graph::Arc& arc : map_->overlap) check_pair(arc.a, arc.b, n, "overlap");
+    for (size_t id = 0; id < num_submaps(); ++id) check_submap(static_cast<int>(id));
+    for (const Link& link : map_->links) {
+      check_pair(link.a, link.b, num_submaps(), "link");
+      for (const int c : link.evidence) require_index(c, map_->constraints.size(), "evidence");
+    }
+    for (const LoopCandidate& loop : map_->loops) {
+      check_pair(loop.a, loop.b, n, "loop candidate");
+      require_index(static_cast<int>(loop.verdict), static_cast<size_t>(LoopVerdict::outlier) + 1,
+                    "verdict");
+    }
+    require(map_->T_world_submap.size() == num_submaps(), "not one pose a submap");
+  }
+
+ private:
+  size_t num_submaps() const { return map_->submaps.size(); }
+
+  void check_track() const {
+    const Track& track = map_->track;
+    for (const TrackedObservation& tracked : track.observations)
+      require_index(tracked.keyframe, track.keyframes.size(), "keyframe of an observation");
+    for (const Keyframe& keyframe : track.keyframes)
+      require_index(keyframe.observation, track.observations.size(), "observation of a keyframe");
+    for (const Constraint& c : track.odometry)
+      check_pair(c.a, c.b, track.keyframes.size(), "odometry");
+  }
+
+  void check_submap(int id) const {
+    const Submap& submap = map_->submaps[static_cast<size_t>(id)];
+    require(submap.id == id && !submap.keyframes.empty(), "a submap is missing or empty");
+    require(std::is_sorted(submap.keyframes.begin(), submap.keyframes.end()),
+            "the keyframes of a submap are not in order");
+    for (const int keyframe : submap.keyframes) {
+      require_index(keyframe, map_->submap_of_keyframe.size(), "keyframe of a submap");
+      require(map_->submap_of_keyframe[static_cast<size_t>(keyframe)] == id,
+              "a submap has a keyframe of another one");
+    }
+    const auto members =
+        std::count(map_->submap_of_keyframe.begin(), map_->submap_of_keyframe.end(), id);
+    require(members == static_cast<long>(submap.keyframes.size()),
+            "a submap lacks one of its keyframes");
+    for (const int c : submap.constraints)
+      require_index(c, map_->constraints.size(), "constraint of a submap");
+  }
+
+  void check_pair(int a, int b, size_t size, const char* what) const {
+    require_index(a, size, what);
+    require_index(b, size, what);
+  }
+
+  void require_index(int64_t index, size_t size, const char* what) const {
+    require(index >= 0 && static_cast<size_t>(index) < size, what);
+  }
+
+  void require(bool good, const char* what) const {
+    if (!good) database_->fail_damaged(std::string("its parts do not fit together: ") + what);
+  }
+
+  const Database* database_;
+  const HybridMap* map_;
+};
+
+}  // namespace
+
+Track MapFile::load_track() const {
+  const std::lock_guard lock(impl_->mutex);
+  Database& database = impl_->database;
+  const auto records = read_list<TrackRecord>(database, "track");
+  if (records.size() != 1) database.fail_damaged("table track has not one row");
+  Track track;
+  track.space = records[0].space;
+  track.log = read_log_report(database, records[0]);
+  track.keyframes = read_list<Keyframe>(database, "keyframes");
+  for (size_t k = 0; k < track.keyframes.size(); ++k) track.keyframes[k].id = static_cast<int>(k);
+  track.observations = read_list<TrackedObservation>(database, "tracked");
+  track.odometry = read_list<Constraint>(database, "odometry");
+  return track;
+}
+
+std::vector<Constraint> MapFile::load_constraints() const {
+  const std::lock_guard lock(impl_->mutex);
+  return read_list<Constraint>(impl_->database, "constraints");
+}
+
+std::vector<graph::Arc> MapFile::load_overlap() const {
+  const std::lock_guard lock(impl_->mutex);
+  return read_list<graph::Arc>(impl_->database, "overlap");
+}
+
+graph::Labels MapFile::load_partition() const {
+  const std::lock_guard lock(impl_->mutex);
+  return read_list<int>(impl_->database, "partition_labels");
+}
+
+std::vector<Submap> MapFile::load_submaps() const {
+  const std::lock_guard lock(impl_->mutex);
+  Statement select(impl_->database, "SELECT * FROM submaps ORDER BY id");
+  std::vector<Submap> submaps;
+  while (select.step()) submaps.push_back(read_submap(impl_->database, select));
+  return submaps;
+}
+
+std::vector<Link> MapFile::load_links() const {
+  const std::lock_guard lock(impl_->mutex);
+  Database& database = impl_->database;
+  auto links = read_list<Link>(database, "links");
+  for (const LinkEvidence& e : read_list<LinkEvidence>(database, "link_evidence")) {
+    if (e.link < 0 || static_cast<size_t>(e.link) >= links.size())
+      database.fail_damaged("evidence of a link that is not there");
+    links[static_cast<size_t>(e.link)].evidence.push_back(e.constraint);
+  }
+  return links;
+}
+
+std::vector<LoopCandidate> MapFile::load_loops() const {
+  const std::lock_guard lock(impl_->mutex);
+  return read_list<LoopCandidate>(impl_->database, "loop_candidates");
+}
+
+MapSolution MapFile::load_solution() const {
+  const std::lock_guard lock(impl_->mutex);
+  Database& database = impl_->database;
+  const auto records = read_list<SolutionRecord>(database, "solution");
+  if (records.size() != 1) database.fail_damaged("table solution has not one row");
+  MapSolution solution;
+  solution.information_loss = records[0].information_loss;
+  solution.chi2_initial = records[0].chi2_initial;
+  solution.chi2 = records[0].chi2;
+  for (const SubmapPose& pose : read_list<SubmapPose>(database, "submap_poses")) {
+    solution.T_world_submap.push_back(pose.T_world_submap);
+    solution.covariance_world_submap.push_back(pose.covariance);
+  }
+  return solution;
+}
+
+std::vector<Pose> MapFile::load_estimate() const {
+  const std::lock_guard lock(impl_->mutex);
+  return read_list<Pose>(impl_->database, "estimate");
+}
+
+bool MapFile::has_octree(int submap) const {
+  const std::lock_guard lock(impl_->mutex);
+  Statement find(impl_->database, "SELECT 1 FROM octrees WHERE submap = ?");
+  find.bind(1, int64_t{submap});
+  return find.step();
+}
+
+std::string MapFile::load_octree(int submap) const {
+  const std::lock_guard lock(impl_->mutex);
+  Database& database = impl_->database;
+  const std::string name = "the octree of submap " + std::to_string(submap);
+  Statement find(database, "SELECT digest, ot_zstd FROM octrees WHERE submap = ?");
+  find.bind(1, int64_t{submap});
+  if (!find.step())
+    throw InputError(database.path().string() + ": the map is not finished, it has not yet " +
+                     name + "; run the same hmtmap map command again");
+  const std::string_view frame = find.blob(1);
+  if (static_cast<int64_t>(digest_of(frame)) != find.integer(0))
+    database.fail_damaged(name + " does not match its checksum");
+  std::optional<std::string> bytes = decompress(frame, kMaxOctreeBytes);
+  if (!bytes) database.fail_damaged(name + " cannot be decoded");
+  return std::move(*bytes);
+}
+
+HybridMap MapFile::load_map() const {
+  HybridMap map;
+  map.track = load_track();
+  map.constraints = load_constraints();
+  map.overlap = load_overlap();
+  map.submap_of_keyframe = load_partition();
+  map.submaps = load_submaps();
+  map.links = load_links();
+  map.loops = load_loops();
+  MapSolution solution = load_solution();
+  map.T_world_submap = std::move(solution.T_world_submap);
+  map.covariance_world_submap = std::move(solution.covariance_world_submap);
+  map.information_loss = solution.information_loss;
+  map.chi2_initial = solution.chi2_initial;
+  map.chi2 = solution.chi2;
+  MapCheck(impl_->database, map).run();
+  return map;
+}
+
+}  // namespace hmt::submap
