@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_map.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace hmt::submap {
+namespace {
+
+// A full turn in steps of 0.35 rad makes 18 keyframes; some more join it with the way there.
+constexpr size_t kKeyframes = 30;
+
+}  // namespace
+
+void LocalMap::add(const Pose& T_track_robot, Surface surface) {
+  surfaces_.push_back({T_track_robot, std::move(surface)});
+  if (surfaces_.size() > kKeyframes) surfaces_.pop_front();
+  target_.reset();
+}
+
+void LocalMap::clear() {
+  surfaces_.clear();
+  target_.reset();
+}
+
+const RegistrationTarget& LocalMap::target() {
+  if (!target_) {
+    std::vector<RegistrationTarget::Placed> placed;
+    for (const Placed& p : surfaces_) placed.push_back({p.T_track_robot, &p.surface});
+    target_.emplace(placed);
+  }
+  return *target_;
+}
+
+}  // namespace hmt::submap

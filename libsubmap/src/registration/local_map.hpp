@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "hmt/submap/registration/register_surface.hpp"
+
+namespace hmt::submap {
+
+/// The surfaces of the latest keyframes: what an observation is registered against. It forgets the
+/// oldest ones, so its memory is bounded.
+class LocalMap {
+ public:
+  void add(const Pose& T_track_robot, Surface surface);
+  /// Forgets everything, where the track is broken.
+  void clear();
+  bool empty() const { return surfaces_.empty(); }
+  /// In the track's frame; built when it is first asked for after a change.
+  const RegistrationTarget& target();
+
+ private:
+  struct Placed {
+    Pose T_track_robot;
+    Surface surface;
+  };
+  std::deque<Placed> surfaces_;
+  std::optional<RegistrationTarget> target_;
+};
+
+}  // namespace hmt::submap

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "hmt/submap/registration/track.hpp"
+#include "local_map.hpp"
+#include "odometry_model.hpp"
+
+namespace hmt::submap {
+
+/// Where the pose of an observation came from.
+struct TrackCounts {
+  int64_t registered = 0;
+  int64_t searched = 0;       ///< registered after a search around the odometry's guess
+  int64_t odometry_only = 0;  ///< nothing to register, or no registration to be trusted
+  int64_t odometry_jumps = 0;
+};
+
+/// The front end, one observation at a time.
+class Tracker {
+ public:
+  Tracker(Space space, const TrackOptions& options);
+
+  void add(const Observation& observation);
+  const TrackCounts& counts() const { return counts_; }
+  /// Everything but the log report.
+  Track take() { return std::move(track_); }
+
+ private:
+  struct Estimate {
+    Pose T_track_robot;
+    Matrix6d information = Matrix6d::Zero();  // of the registration alone
+    bool registered = false;
+  };
+
+  Estimate estimate(const Surface& surface, const Pose& T_track_guess, const Matrix6d& covariance);
+  bool is_trusted(const Registration& registration, const Pose& T_track_guess,
+                  const Matrix6d& covariance) const;
+  void start(const Observation& observation);
+  void add_keyframe(const Observation& observation, const Estimate& estimate, Surface surface);
+
+  Space space_;
+  TrackOptions options_;
+  OdometryModel odometry_;
+  LocalMap map_;
+  Track track_;
+  TrackCounts counts_;
+
+  // The latest observation.
+  Pose T_odom_latest_;
+  Pose T_track_latest_;
+  Matrix6d covariance_latest_ = Matrix6d::Zero();  // against the local map
+  // Since the latest keyframe, by odometry alone.
+  Pose T_keyframe_odometry_;
+  Matrix6d covariance_since_keyframe_ = Matrix6d::Zero();
+  Matrix6d information_keyframe_ = Matrix6d::Zero();  // of its registration
+  bool odometry_unbroken_ = true;
+};
+
+}  // namespace hmt::submap
