@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hmt/submap/registration/register_surface.hpp"
+#include "loop_scans.hpp"
+
+namespace hmt::submap {
+
+/// Distance travelled up to each keyframe, metres.
+std::vector<double> path_lengths(std::span<const Pose> T_world_keyframe);
+
+/// A stretch of the track around one keyframe, short enough to be rigid, with all that was seen
+/// from it.
+struct LoopPatch {
+  int center = 0;
+  std::vector<int> keyframes;                  ///< ascending
+  std::vector<Pose> T_center_keyframe;         ///< one each
+  std::vector<Eigen::Vector2f> points_center;  ///< thinned, in the frame of the center
+};
+
+/// First and last keyframe of the stretch that lies within `reach_m` of travel around `center`.
+std::pair<int, int> patch_range(std::span<const double> path_m, int center, double reach_m);
+
+LoopPatch make_patch(const LoopProblem& problem, std::span<const double> path_m,
+                     std::span<const PlanarScan> scans, int center, double reach_m);
+
+/// The surfaces of all observations of a patch in the frame of its center, every n-th point, so
+/// that there are at most `most_points`.
+Surface patch_surface(const LoopProblem& problem, const LoopPatch& patch, size_t most_points);
+
+/// The surfaces of all observations of a patch in the frame of its center, to register onto.
+RegistrationTarget patch_target(const LoopProblem& problem, const LoopPatch& patch);
+
+/// Share of the points of `seen` that lie where `seer` looked through, when the frame of `seen`
+/// stands at T_seer_seen (centers).
+double seen_through_share(const LoopPatch& seer, std::span<const PlanarScan> scans,
+                          const LoopPatch& seen, const Pose& T_seer_seen);
+
+}  // namespace hmt::submap

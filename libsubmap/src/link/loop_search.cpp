@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hmt/submap/link/loop_search.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "loop_verify.hpp"
+
+namespace hmt::submap {
+namespace {
+
+/// Work between two looks at progress and at the wish to stop.
+constexpr size_t kMapsPerBatch = 32;
+
+/// The proposals of one map: [first, last).
+struct MapGroup {
+  size_t first = 0;
+  size_t last = 0;
+};
+
+std::vector<MapGroup> group_by_map(std::span<const LoopProposal> proposals) {
+  std::vector<MapGroup> groups;
+  for (size_t i = 0; i < proposals.size(); ++i) {
+    if (groups.empty() || proposals[groups.back().first].a != proposals[i].a)
+      groups.push_back({i, i});
+    groups.back().last = i + 1;
+  }
+  return groups;
+}
+
+template <typename Task>
+void for_each_index(size_t first, size_t last, int threads, const Task& task) {
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<size_t>(first, last, 1),
+                      [&](const tbb::blocked_range<size_t>& range) {
+                        for (size_t i = range.begin(); i < range.end(); ++i) task(i);
+                      });
+  });
+}
+
+std::vector<PlanarScan> load_scans(const LoopProblem& problem, const Run& run) {
+  std::vector<PlanarScan> scans(problem.keyframes.size());
+  for_each_index(0, scans.size(), run.threads, [&](size_t k) {
+    scans[k] = make_planar_scan(*problem.observations->load(problem.keyframes[k].observation));
+  });
+  return scans;
+}
+
+}  // namespace
+
+std::vector<LoopCandidate> search_loops(const LoopProblem& problem, const Run& run) {
+  if (problem.space != Space::se2) {
+    run.log_warning("loop closures are searched in planar logs only: none were looked for");
+    return {};
+  }
+  const std::vector<double> path_m = path_lengths(problem.T_world_keyframe);
+  const std::vector<LoopProposal> proposals = propose_loops(problem, path_m);
+  if (proposals.empty()) return {};
+  const std::vector<PlanarScan> scans = load_scans(problem, run);
+  const std::vector<MapGroup> groups = group_by_map(proposals);
+  std::vector<LoopCandidate> candidates(proposals.size());
+  for (size_t first = 0; first < groups.size(); first += kMapsPerBatch) {
+    if (run.stop_requested()) throw Interrupted{};
+    const size_t last = std::min(groups.size(), first + kMapsPerBatch);
+    for_each_index(first, last, run.threads, [&](size_t g) {
+      LoopMap map(problem,
+                  make_patch(problem, path_m, scans, proposals[groups[g].first].a, kMapReachM));
+      for (size_t i = groups[g].first; i < groups[g].last; ++i)
+        candidates[i] = examine_loop(
+            problem, scans, map, make_patch(problem, path_m, scans, proposals[i].b, kQueryReachM),
+            proposals[i]);
+    });
+    run.report({"loops", static_cast<double>(last), static_cast<double>(groups.size())});
+  }
+  return candidates;
+}
+
+}  // namespace hmt::submap
