@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracker.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "hmt/submap/registration/correlative.hpp"
 #include "information.hpp"
 
 namespace hmt::submap {
@@ -25,6 +27,38 @@ Matrix6d diagonal_in(Space space, double translation, double rotation) {
   return v.asDiagonal();
 }
 
+Matrix6d unknown_step(Space space) {
+  return diagonal_in(space, kUnknownStep_m * kUnknownStep_m, kUnknownStep_rad * kUnknownStep_rad);
+}
+
+// A registration is taken if so many of the usable points meet the local map; new sights open at
+// less than half of the view from one observation to the next.
+constexpr double kLeastInlierFraction = 0.5;
+// Chi2 of three degrees of freedom beyond which a prediction is doubted (one in a thousand).
+constexpr double kDoubtful2 = 16;
+// Wheels slip and clocks jitter with heavy tails: what is doubted may be this much wronger.
+constexpr double kDoubtInflation2 = 100;
+// Between registrations of nearly the same quality the one nearer to the odometry is taken.
+constexpr double kRankPerMahalanobis2 = 0.01;
+constexpr int kStarts = 3;
+constexpr double kLeastWindow_m = 0.5, kLargestWindow_m = 2.0;
+constexpr double kLeastWindow_rad = 0.3, kLargestWindow_rad = 1.0;
+
+bool is_good(const Registration& registration) {
+  return registration.termination != Registration::Termination::too_few_points &&
+         registration.inlier_fraction >= kLeastInlierFraction;
+}
+
+// Whether the registration told more than the prediction in every direction.
+bool observes_all(Space space, const Matrix6d& information, const Matrix6d& predicted) {
+  const Eigen::ArrayXi used =
+      space == Space::se2 ? Eigen::ArrayXi{{0, 1, 5}} : Eigen::ArrayXi{{0, 1, 2, 3, 4, 5}};
+  const Eigen::MatrixXd measured = information(used, used);
+  const Eigen::MatrixXd prior = predicted(used, used);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(measured, prior);
+  return eigen.eigenvalues()[0] > 1;
+}
+
 double rotation_angle_rad(const Pose& T) {
   return 2 * std::atan2(T.rotation.vec().norm(), std::abs(T.rotation.w()));
 }
@@ -32,7 +66,7 @@ double rotation_angle_rad(const Pose& T) {
 }  // namespace
 
 Tracker::Tracker(Space space, const TrackOptions& options)
-    : space_(space), options_(options), odometry_(space) {
+    : space_(space), options_(options), step_odometry_(space), keyframe_odometry_(space) {
   track_.space = space;
 }
 
@@ -47,7 +81,7 @@ void Tracker::add(const Observation& observation) {
     start(observation);
   } else {
     Pose step = relative_pose(T_odom_latest_, observation.T_odom_robot);
-    Matrix6d step_covariance = odometry_.covariance(step);
+    Matrix6d step_covariance = step_odometry_.covariance(step);
     if (!OdometryModel::is_motion(step)) {
       step = Pose{};
       step_covariance =
@@ -56,11 +90,13 @@ void Tracker::add(const Observation& observation) {
       ++counts_.odometry_jumps;
     }
     T_keyframe_odometry_ = T_keyframe_odometry_ * step;
-    covariance_since_keyframe_ =
-        compose_covariance(step, covariance_since_keyframe_, step_covariance);
     const Matrix6d covariance = compose_covariance(step, covariance_latest_, step_covariance);
+    const Prediction prediction{T_track_latest_ * step, covariance, inverse_in(space_, covariance)};
     Surface surface = make_surface(observation);
-    const Estimate found = estimate(surface, T_track_latest_ * step, covariance);
+    const Estimate found = estimate(surface, prediction);
+    if (found.registered && odometry_unbroken_ &&
+        observes_all(space_, found.information, prediction.information))
+      step_odometry_.learn(step, relative_pose(T_track_latest_, found.T_track_robot));
     T_track_latest_ = found.T_track_robot;
     covariance_latest_ =
         found.registered ? inverse_in(space_, inverse_in(space_, covariance) + found.information)
@@ -77,29 +113,55 @@ void Tracker::add(const Observation& observation) {
                                  relative_pose(keyframe.T_track_robot, T_track_latest_)});
 }
 
-bool Tracker::is_trusted(const Registration& registration, const Pose& T_track_guess,
-                         const Matrix6d& covariance) const {
-  constexpr double kLeastInlierFraction = 0.5;
-  constexpr double kLargestMahalanobis2 = 25;
-  if (registration.termination == Registration::Termination::too_few_points) return false;
-  if (registration.inlier_fraction < kLeastInlierFraction) return false;
-  const Vector6d innovation = boxminus(registration.T_target_source, T_track_guess);
-  return innovation.dot(inverse_in(space_, covariance) * innovation) <= kLargestMahalanobis2;
+double Tracker::mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const {
+  const Vector6d innovation = boxminus(T_track_robot, prediction.T_track_robot);
+  return innovation.dot(prediction.information * innovation);
 }
 
-Tracker::Estimate Tracker::estimate(const Surface& surface, const Pose& T_track_guess,
-                                    const Matrix6d& covariance) {
+Tracker::Estimate Tracker::estimate(const Surface& surface, const Prediction& prediction) {
   RegistrationOptions options;
   options.space = space_;
-  options.prior = PosePrior{T_track_guess, inverse_in(space_, covariance)};
-  const Registration registration =
-      register_surface(surface, map_.target(), T_track_guess, options);
-  if (!is_trusted(registration, T_track_guess, covariance)) {
-    ++counts_.odometry_only;
-    return {T_track_guess, Matrix6d::Zero(), false};
+  options.prior = PosePrior{prediction.T_track_robot, prediction.information};
+  Registration found = register_surface(surface, map_.target(), prediction.T_track_robot, options);
+  if (!is_good(found) || mahalanobis2(found.T_target_source, prediction) > kDoubtful2) {
+    found = search(surface, prediction, found);
+    if (!is_good(found)) {
+      ++counts_.odometry_only;
+      return {prediction.T_track_robot, Matrix6d::Zero(), false};
+    }
+    ++counts_.searched;
   }
   ++counts_.registered;
-  return {registration.T_target_source, registration.information, true};
+  return {found.T_target_source, found.information, true};
+}
+
+Registration Tracker::search(const Surface& surface, const Prediction& prediction,
+                             const Registration& first) {
+  RegistrationOptions options;
+  options.space = space_;
+  options.prior = PosePrior{prediction.T_track_robot, prediction.information / kDoubtInflation2};
+  const Eigen::Matrix2d planar = prediction.covariance.topLeftCorner<2, 2>();
+  const double sigma_m = std::sqrt(planar.trace());
+  const double sigma_rad = std::sqrt(prediction.covariance(5, 5));
+  const CorrelativeWindow window{std::clamp(5 * sigma_m, kLeastWindow_m, kLargestWindow_m),
+                                 std::clamp(5 * sigma_rad, kLeastWindow_rad, kLargestWindow_rad)};
+  std::vector<Pose> starts{first.T_target_source};
+  for (const CorrelativeMatch& match :
+       correlative_search(surface, map_.target(), prediction.T_track_robot, window, kStarts))
+    starts.push_back(match.T_target_source);
+  Registration best = first;
+  double best_rank = -1;
+  for (const Pose& start : starts) {
+    const Registration found = register_surface(surface, map_.target(), start, options);
+    const double rank =
+        found.inlier_fraction -
+        kRankPerMahalanobis2 * mahalanobis2(found.T_target_source, prediction) / kDoubtInflation2;
+    if (is_good(found) && rank > best_rank) {
+      best = found;
+      best_rank = rank;
+    }
+  }
+  return best;
 }
 
 void Tracker::add_keyframe(const Observation& observation, const Estimate& estimate,
@@ -109,16 +171,18 @@ void Tracker::add_keyframe(const Observation& observation, const Estimate& estim
     const Pose T_a_b = relative_pose(previous.T_track_robot, estimate.T_track_robot);
     const Matrix6d by_registration =
         compose_information(space_, T_a_b, information_keyframe_, estimate.information);
-    const Matrix6d by_odometry = inverse_in(space_, covariance_since_keyframe_);
+    const Matrix6d by_odometry =
+        odometry_unbroken_ ? inverse_in(space_, keyframe_odometry_.covariance(T_keyframe_odometry_))
+                           : inverse_in(space_, unknown_step(space_));
     track_.odometry.push_back({previous.id, previous.id + 1, ConstraintKind::odometry, T_a_b,
                                by_registration + by_odometry});
-    if (estimate.registered && odometry_unbroken_) odometry_.learn(T_keyframe_odometry_, T_a_b);
+    if (odometry_unbroken_ && observes_all(space_, by_registration, by_odometry))
+      keyframe_odometry_.learn(T_keyframe_odometry_, T_a_b);
   }
   track_.keyframes.push_back({static_cast<int>(track_.keyframes.size()), observation.index,
                               observation.stamp_s, estimate.T_track_robot});
   map_.add(estimate.T_track_robot, std::move(surface));
   T_keyframe_odometry_ = Pose{};
-  covariance_since_keyframe_.setZero();
   information_keyframe_ = estimate.information;
   odometry_unbroken_ = true;
 }

@@ -33,15 +33,24 @@ class Tracker {
     bool registered = false;
   };
 
-  Estimate estimate(const Surface& surface, const Pose& T_track_guess, const Matrix6d& covariance);
-  bool is_trusted(const Registration& registration, const Pose& T_track_guess,
-                  const Matrix6d& covariance) const;
+  struct Prediction {
+    Pose T_track_robot;
+    Matrix6d covariance = Matrix6d::Zero();
+    Matrix6d information = Matrix6d::Zero();
+  };
+
+  Estimate estimate(const Surface& surface, const Prediction& prediction);
+  Registration search(const Surface& surface, const Prediction& prediction,
+                      const Registration& first);
+  double mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const;
   void start(const Observation& observation);
   void add_keyframe(const Observation& observation, const Estimate& estimate, Surface surface);
 
   Space space_;
   TrackOptions options_;
-  OdometryModel odometry_;
+  // Between observations a clock's jitter counts, which is gone between keyframes.
+  OdometryModel step_odometry_;
+  OdometryModel keyframe_odometry_;
   LocalMap map_;
   Track track_;
   TrackCounts counts_;
@@ -52,7 +61,6 @@ class Tracker {
   Matrix6d covariance_latest_ = Matrix6d::Zero();  // against the local map
   // Since the latest keyframe, by odometry alone.
   Pose T_keyframe_odometry_;
-  Matrix6d covariance_since_keyframe_ = Matrix6d::Zero();
   Matrix6d information_keyframe_ = Matrix6d::Zero();  // of its registration
   bool odometry_unbroken_ = true;
 };
