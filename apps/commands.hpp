@@ -10,5 +10,6 @@ namespace hmt::apps {
 Action add_evaluate(CLI::App& command);
 Action add_partition(CLI::App& command);
 Action add_compare(CLI::App& command);
+Action add_simulate(CLI::App& command);
 
 }  // namespace hmt::apps

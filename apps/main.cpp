@@ -21,6 +21,7 @@ const std::vector<Command> kCommands = {
     {"evaluate", "Errors of a map or trajectory against truth", add_evaluate},
     {"partition", "Cut an overlap graph into groups by recursive spectral min-Ncut", add_partition},
     {"compare", "How alike two partitions are", add_compare},
+    {"simulate", "Make a log with ground truth", add_simulate},
 };
 
 void add_globals(CLI::App& app, Globals& globals) {

@@ -2,21 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hmt/submap/export/trajectory.hpp"
 
-#include <array>
-#include <charconv>
-#include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "../log/line_source.hpp"
 #include "../log/text_fields.hpp"
 #include "hmt/graph/input_error.hpp"
 #include "hmt/submap/export/atomic_file.hpp"
+#include "number_text.hpp"
 
 namespace hmt::submap {
 namespace {
 
 constexpr int kPoseDecimals = 9;
-constexpr size_t kLeastStampDecimals = 6;
 
 StampedPose parse_tum(std::string_view fields) {
   StampedPose pose;
@@ -28,27 +26,6 @@ StampedPose parse_tum(std::string_view fields) {
   if (q.norm() < 1e-6) throw std::invalid_argument("quaternion of length zero");
   pose.T_world_robot.rotation = Eigen::Quaterniond(q.normalized());
   return pose;
-}
-
-void append_stamp(std::string& out, double stamp_s) {
-  std::array<char, 400> digits{};
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), stamp_s, std::chars_format::fixed)
-          .ptr;
-  std::string text(digits.data(), end);
-  if (text.find('.') == std::string::npos) text += '.';
-  const size_t decimals = text.size() - 1 - text.find('.');
-  if (decimals < kLeastStampDecimals) text.append(kLeastStampDecimals - decimals, '0');
-  out += text;
-}
-
-void append_number(std::string& out, double value) {
-  std::array<char, 400> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                 std::chars_format::fixed, kPoseDecimals)
-                       .ptr;
-  out += ' ';
-  out.append(digits.data(), end);
 }
 
 }  // namespace
@@ -77,9 +54,9 @@ void write_tum(const std::filesystem::path& path, std::span<const StampedPose> t
   for (const auto& [stamp_s, T_world_robot] : trajectory) {
     line.clear();
     append_stamp(line, stamp_s);
-    for (const double value : T_world_robot.translation) append_number(line, value);
+    for (const double value : T_world_robot.translation) append_number(line, value, kPoseDecimals);
     const Eigen::Vector4d q = T_world_robot.rotation.coeffs();
-    for (const double value : q) append_number(line, value);
+    for (const double value : q) append_number(line, value, kPoseDecimals);
     line += '\n';
     file.write(line);
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "range_scan.hpp"
 #include "text_fields.hpp"
 
 namespace hmt::submap {
@@ -198,26 +199,15 @@ Reading CarmenReader::reading(const Scan& scan, const Pose& T_odom_robot) {
   Reading reading;
   reading.sensor = scan.sensor;
   reading.T_robot_sensor = relative_pose(T_odom_robot, T_odom_laser(scan));
-  reading.beam_step_rad = std::abs(record.beam_step_rad);
   reading.max_range_m =
       record.max_range_m > 0 ? record.max_range_m : max_range_param_m_.value_or(kDefaultMaxRange);
   if (const auto limit_m = lasers_.at(scan.sensor).limit.limit_m())
     reading.max_range_m = std::min(reading.max_range_m, *limit_m);
   if (record.ranges_m.empty()) note("scans without beams", scan.place);
-  for (size_t i = 0; i < record.ranges_m.size(); ++i) {
-    const double range_m = record.ranges_m[i];
-    const double angle_rad = record.start_angle_rad + static_cast<double>(i) * record.beam_step_rad;
-    const Eigen::Vector3d direction(std::cos(angle_rad), std::sin(angle_rad), 0);
-    if (std::isnan(range_m)) {
-      note("ranges left out: not a number", scan.place);
-    } else if (range_m <= 0) {
-      note("ranges left out: zero or negative", scan.place);
-    } else if (range_m >= reading.max_range_m) {
-      reading.misses_sensor.push_back(direction.cast<float>());
-    } else {
-      reading.points_sensor.push_back((range_m * direction).cast<float>());
-    }
-  }
+  const DroppedRanges dropped =
+      add_ranges(record.ranges_m, record.start_angle_rad, record.beam_step_rad, reading);
+  note("ranges left out: not a number", scan.place, dropped.not_a_number);
+  note("ranges left out: zero or negative", scan.place, dropped.not_positive);
   return reading;
 }
 
@@ -239,12 +229,15 @@ void CarmenReader::note_stamp(const Scan& scan) {
   last_stamp_s_ = stamp_s;
 }
 
-void CarmenReader::note(const std::string& what, const std::string& place) {
-  if (++report_.notes[what] == 1) report_.first_places[what] = place;
+void CarmenReader::note(const std::string& what, const std::string& place, int64_t times) {
+  if (times == 0) return;
+  report_.notes[what] += times;
+  report_.first_places.try_emplace(what, place);
 }
 
 void CarmenReader::lose(const std::string& what, const std::string& place) {
-  if (++report_.losses[what] == 1) report_.first_places[what] = place;
+  ++report_.losses[what];
+  report_.first_places.try_emplace(what, place);
 }
 
 std::unique_ptr<LogReader> open_log(const std::filesystem::path& path) {

@@ -51,7 +51,7 @@ class CarmenReader : public LogReader {
   Reading reading(const Scan& scan, const Pose& T_odom_robot);
   bool belongs_to(const Scan& scan, const Scan& front) const;
   void note_stamp(const Scan& scan);
-  void note(const std::string& what, const std::string& place);
+  void note(const std::string& what, const std::string& place, int64_t times = 1);
   void lose(const std::string& what, const std::string& place);
 
   LineSource lines_;
