@@ -76,12 +76,12 @@ Submap optimize_submap(const SubmapJob& job) {
       dof * (static_cast<int>(job.constraints.size()) - static_cast<int>(job.keyframes.size()) + 1);
   const graph::PoseCovariance covariance(graph);
   for (int node = 0; node < static_cast<int>(job.keyframes.size()); ++node) {
-    const auto marginal = covariance.marginal(node);
-    if (!marginal)
+    const auto in_submap = covariance.relative(0, node);
+    if (!in_submap)
       throw InputError("submap " + std::to_string(job.id) +
                        ": its constraints do not tie keyframe " +
                        std::to_string(job.keyframes[static_cast<size_t>(node)]) + " to the others");
-    submap.covariances.push_back(*marginal);
+    submap.covariances.push_back(*in_submap);
   }
   return submap;
 }

@@ -23,7 +23,7 @@ class Components {
     return i;
   }
   void join(int i, int j) {
-    const auto [low, high] = std::minmax(root(i), root(j));
+    const auto [low, high] = std::minmax({root(i), root(j)});
     at(high) = low;
   }
 

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "hmt/submap/pipeline.hpp"
+
+namespace hmt::apps {
+namespace {
+
+struct MapArguments {
+  std::filesystem::path log;
+  std::filesystem::path map;
+  bool force = false;
+  double keyframe_angle_deg = 0;
+  submap::Options options;
+};
+
+double seconds(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+nlohmann::ordered_json summary(const submap::HybridMap& map) {
+  const auto accepted = [](const submap::LoopCandidate& c) {
+    return c.verdict == submap::LoopVerdict::accepted;
+  };
+  return {{"observations", map.track.observations.size()},
+          {"keyframes", map.track.keyframes.size()},
+          {"submaps", map.submaps.size()},
+          {"links", map.links.size()},
+          {"loop_closures", std::count_if(map.loops.begin(), map.loops.end(), accepted)},
+          {"information_loss", map.information_loss}};
+}
+
+std::string as_text(const nlohmann::ordered_json& object, const std::filesystem::path& map) {
+  std::string text = map.string() + "\n";
+  for (const auto& [name, value] : object.items())
+    if (!value.is_object()) text += fmt::format("  {:<18} {}\n", name, value.dump());
+  return text + "next: hmtmap export " + map.string() + " -o " + map.stem().string() + "/\n";
+}
+
+/// Says what of the log could not be used; returns the exit code that tells it.
+int report_losses(const submap::LogReport& log) {
+  for (const auto& [note, count] : log.notes) spdlog::info("log: {} ({} times)", note, count);
+  for (const auto& [loss, count] : log.losses) spdlog::warn("log: {} ({} times)", loss, count);
+  return log.losses.empty() ? kDone : kDoneWithLosses;
+}
+
+int map_log(const MapArguments& arguments, const Globals& globals) {
+  submap::Options options = arguments.options;
+  options.track.keyframe_angle_rad = arguments.keyframe_angle_deg * std::numbers::pi / 180;
+  const auto start = std::chrono::steady_clock::now();
+  const auto existing =
+      arguments.force ? submap::MapFile::Existing::replace : submap::MapFile::Existing::resume;
+  const submap::BuildResult result =
+      submap::build_map(arguments.log, arguments.map, options, existing, make_run(globals));
+  const submap::HybridMap map = result.file.load_map();
+  nlohmann::ordered_json object = summary(map);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  object["wall_s"] = wall.count();
+  object["cpu_s"] = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  object["peak_rss_mb"] = static_cast<double>(usage.ru_maxrss) / 1024;
+  object["stages"] = nlohmann::ordered_json::object();
+  for (const submap::StageTime& time : result.times) object["stages"][time.stage] = time.seconds;
+  print_result(globals, object, as_text(object, arguments.map));
+  return report_losses(map.track.log);
+}
+
+}  // namespace
+
+Action add_map(CLI::App& command) {
+  auto arguments = std::make_shared<MapArguments>();  // shared by CLI11's options and the action
+  submap::Options& options = arguments->options;
+  arguments->keyframe_angle_deg = options.track.keyframe_angle_rad * 180 / std::numbers::pi;
+  command.add_option("LOG", arguments->log, "Log to map (CARMEN; plain, gz, bz2 or zst)")
+      ->required();
+  command.add_option("-o,--output", arguments->map, "Map file to make, or to go on with")
+      ->required();
+  command.add_flag("--force", arguments->force, "Begin anew even if the map file exists");
+  command
+      .add_option("--tau", options.partition.tau,
+                  "Bisect while Ncut < tau; larger gives more, smaller submaps")
+      ->check(CLI::Range(1e-6, 2.0))
+      ->capture_default_str();
+  command
+      .add_option("--min-keyframes", options.partition.min_keyframes,
+                  "Groups of fewer keyframes are not cut")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command
+      .add_option("--keyframe-distance", options.track.keyframe_distance_m,
+                  "A keyframe every so many metres")
+      ->check(CLI::Range(0.05, 10.0))
+      ->capture_default_str();
+  command
+      .add_option("--keyframe-angle", arguments->keyframe_angle_deg,
+                  "A keyframe every so many degrees of turn")
+      ->check(CLI::Range(1.0, 180.0))
+      ->capture_default_str();
+  command.add_option("--resolution", options.octree_resolution_m, "Cells of the OctoMaps, metres")
+      ->check(CLI::Range(0.005, 10.0))
+      ->capture_default_str();
+  return [arguments](const Globals& globals) { return map_log(*arguments, globals); };
+}
+
+}  // namespace hmt::apps

@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hmt/submap/pipeline.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "hmt/graph/information_loss.hpp"
+#include "hmt/graph/pose_covariance.hpp"
+#include "hmt/graph/pose_optimizer.hpp"
+#include "hmt/submap/link/condense_links.hpp"
+#include "hmt/submap/link/robust_solution.hpp"
+#include "hmt/submap/local/optimize_submap.hpp"
+
+namespace hmt::submap {
+namespace {
+
+// The poses stand once a round moves none by more than this, far below what a sensor resolves:
+// overlap and partition would come out the same again.
+constexpr double kSettledMove_m = 0.02;
+constexpr double kSettledTurn_rad = 0.005;
+// Bound on the rounds for a log on which loops are still found late.
+constexpr int kMaxRounds = 5;
+const std::string kSettled = "settled";
+
+graph::PoseGraph graph_of_all(const Track& track, std::span<const Pose> T_world_keyframe,
+                              std::span<const Constraint> constraints) {
+  std::vector<int> all(track.keyframes.size());
+  std::iota(all.begin(), all.end(), 0);
+  graph::PoseGraph graph = keyframe_graph(track.space, all, T_world_keyframe, constraints);
+  if (!graph.poses.empty()) graph.fixed = {0};
+  return graph;
+}
+
+std::vector<Pose> track_poses(const Track& track) {
+  std::vector<Pose> T_track_robot;
+  for (const Keyframe& keyframe : track.keyframes) T_track_robot.push_back(keyframe.T_track_robot);
+  return T_track_robot;
+}
+
+void read_and_track(MapFile& file, const std::string& stage, const std::filesystem::path& log,
+                    const Options& options, const Run& run) {
+  const auto reader = open_log(log);
+  StageWriter writer = file.begin(stage);
+  const Track track = track_log(
+      *reader, options.track, [&writer](const Observation& o) { writer.add(o); }, run);
+  writer.put_track(track);
+  writer.put_constraints(track.odometry);
+  writer.put_estimate(track_poses(track));
+  writer.commit();
+}
+
+std::vector<Constraint> of_kind(std::span<const Constraint> constraints, ConstraintKind kind) {
+  std::vector<Constraint> result;
+  std::copy_if(constraints.begin(), constraints.end(), std::back_inserter(result),
+               [kind](const Constraint& c) { return c.kind == kind; });
+  return result;
+}
+
+/// Overlap of the keyframes at the present poses, and the registrations that it suggests.
+void find_overlap(MapFile& file, const Track& track, const std::string& stage,
+                  const Options& options, const Run& run) {
+  const std::vector<Pose> T_world_keyframe = file.load_estimate();
+  const std::vector<Constraint> known = file.load_constraints();
+  const graph::PoseCovariance covariance(graph_of_all(track, T_world_keyframe, known));
+  const PairCovariance of_pair = [&covariance](int a, int b) { return covariance.relative(a, b); };
+  const graph::WeightedGraph overlap =
+      overlap_graph(track.keyframes, T_world_keyframe, of_pair, file, options.overlap, run);
+  std::vector<Constraint> constraints = track.odometry;
+  const std::vector<Constraint> registered = register_overlapping(
+      track.space, track.keyframes, T_world_keyframe, overlap, of_pair, file, options.local, run);
+  const std::vector<Constraint> loops = of_kind(known, ConstraintKind::loop);
+  constraints.insert(constraints.end(), registered.begin(), registered.end());
+  constraints.insert(constraints.end(), loops.begin(), loops.end());
+  StageWriter writer = file.begin(stage);
+  writer.put_overlap(overlap.arcs());
+  writer.put_constraints(solve_robustly(track.space, T_world_keyframe, constraints, run).kept);
+  writer.commit();
+}
+
+std::vector<Submap> optimize_submaps(const std::vector<SubmapJob>& jobs, const Run& run) {
+  std::vector<Submap> submaps(jobs.size());
+  tbb::task_arena arena(run.threads);
+  arena.execute([&] {
+    tbb::parallel_for(size_t{0}, jobs.size(),
+                      [&](size_t k) { submaps[k] = optimize_submap(jobs[k]); });
+  });
+  return submaps;
+}
+
+/// T_world_submap from the graph of submaps and links, the poses before as the start.
+MapSolution place_submaps(const Track& track, std::span<const Submap> submaps,
+                          std::span<const Link> links, std::span<const Pose> T_world_keyframe,
+                          const Run& run) {
+  std::vector<Pose> T_world_submap;
+  for (const Submap& submap : submaps)
+    T_world_submap.push_back(T_world_keyframe[static_cast<size_t>(submap.keyframes.front())]);
+  graph::PoseOptimizerOptions options;
+  options.threads = run.threads;
+  const auto result = graph::optimize(submap_graph(track.space, T_world_submap, links), options);
+  MapSolution solution;
+  solution.T_world_submap = result.poses;
+  solution.chi2_initial = result.report.chi2_initial;
+  solution.chi2 = result.report.chi2;
+  return solution;
+}
+
+std::vector<Matrix6d> submap_covariances(const Track& track, std::span<const Pose> T_world_submap,
+                                         std::span<const Link> links) {
+  const graph::PoseCovariance covariance(submap_graph(track.space, T_world_submap, links));
+  std::vector<Matrix6d> covariances;
+  for (size_t k = 0; k < T_world_submap.size(); ++k)
+    covariances.push_back(covariance.marginal(static_cast<int>(k)).value_or(Matrix6d::Zero()));
+  return covariances;
+}
+
+/// Cuts the keyframes into submaps, optimizes each on its own, links them and places them in the
+/// world.
+void make_submaps(MapFile& file, const Track& track, const std::string& stage,
+                  const Options& options, const Run& run) {
+  const std::vector<Pose> T_world_keyframe = file.load_estimate();
+  const std::vector<Constraint> constraints = file.load_constraints();
+  const graph::WeightedGraph overlap(static_cast<int>(track.keyframes.size()), file.load_overlap());
+  const graph::Labels partition =
+      partition_keyframes(overlap, constraints, options.partition, run.threads);
+  const std::vector<Submap> submaps = optimize_submaps(
+      make_submap_jobs(track.space, partition, T_world_keyframe, constraints), run);
+  std::vector<Link> links =
+      condense_links(track.space, submaps, partition, constraints, overlap, run);
+  MapSolution solution = place_submaps(track, submaps, links, T_world_keyframe, run);
+  solution.covariance_world_submap = submap_covariances(track, solution.T_world_submap, links);
+  const auto loss =
+      graph::information_loss(graph_of_all(track, T_world_keyframe, constraints), partition);
+  solution.information_loss = loss.total;
+  for (Link& link : links) link.information_loss = loss.between.at({link.a, link.b});
+  StageWriter writer = file.begin(stage);
+  writer.put_partition(partition);
+  for (const Submap& submap : submaps) writer.put_submap(submap);
+  writer.put_links(links);
+  writer.put_solution(solution);
+  writer.commit();
+}
+
+std::vector<Pose> keyframe_poses(const HybridMap& map) {
+  std::vector<Pose> T_world_keyframe;
+  for (const Keyframe& keyframe : map.track.keyframes)
+    T_world_keyframe.push_back(world_pose(map, keyframe.id));
+  return T_world_keyframe;
+}
+
+bool stand(std::span<const Pose> before, std::span<const Pose> after) {
+  for (size_t k = 0; k < before.size(); ++k) {
+    const Vector6d move = graph::boxminus(after[k], before[k]);
+    if (move.head<3>().norm() > kSettledMove_m || move.tail<3>().norm() > kSettledTurn_rad)
+      return false;
+  }
+  return true;
+}
+
+/// The same submaps and links with the keyframes at the given poses.
+void move_submaps(HybridMap& map, std::span<const Pose> T_world_keyframe) {
+  for (Submap& submap : map.submaps) {
+    const Pose& T_world_submap = T_world_keyframe[static_cast<size_t>(submap.keyframes.front())];
+    map.T_world_submap[static_cast<size_t>(submap.id)] = T_world_submap;
+    for (size_t k = 0; k < submap.keyframes.size(); ++k)
+      submap.T_submap_keyframe[k] = graph::relative_pose(
+          T_world_submap, T_world_keyframe[static_cast<size_t>(submap.keyframes[k])]);
+  }
+}
+
+std::vector<LoopCandidate> find_loops(const HybridMap& map, std::span<const Pose> T_world_keyframe,
+                                      const MapFile& file, const Run& run) {
+  graph::PoseGraph graph = graph_of_all(map.track, T_world_keyframe, map.constraints);
+  const graph::PoseCovariance covariance(graph);
+  std::set<std::pair<int, int>> tied;
+  for (const Constraint& c : map.constraints) tied.insert({c.a, c.b});
+  LoopProblem problem;
+  problem.space = map.track.space;
+  problem.keyframes = map.track.keyframes;
+  problem.T_world_keyframe = T_world_keyframe;
+  problem.submap = map.submap_of_keyframe;
+  problem.already_tied = [&](int a, int b) {
+    return std::abs(a - b) <= kVisitGap || tied.contains(std::minmax(a, b));
+  };
+  problem.covariance = [&covariance](int a, int b) { return covariance.relative(a, b); };
+  problem.observations = &file;
+  return consistent_loops(search_loops(problem, run), graph);
+}
+
+std::vector<Constraint> with_loops(std::vector<Constraint> constraints,
+                                   std::span<const LoopCandidate> candidates) {
+  for (const LoopCandidate& c : candidates)
+    if (c.verdict == LoopVerdict::accepted)
+      constraints.push_back({c.a, c.b, ConstraintKind::loop, c.T_a_b, c.information});
+  return constraints;
+}
+
+void mark_outliers(std::vector<LoopCandidate>& candidates, std::span<const Constraint> outliers) {
+  for (LoopCandidate& candidate : candidates)
+    for (const Constraint& c : outliers)
+      if (c.kind == ConstraintKind::loop && c.a == candidate.a && c.b == candidate.b) {
+        candidate.verdict = LoopVerdict::outlier;
+        candidate.reason = "contradicts the other constraints in the robust optimization";
+      }
+}
+
+/// New loop closures change what overlaps: the next round starts from the poses that they give.
+void take_loops(MapFile& file, const HybridMap& map, std::vector<LoopCandidate> candidates,
+                const std::string& stage, const Run& run) {
+  const RobustSolution solution = solve_robustly(map.track.space, keyframe_poses(map),
+                                                 with_loops(map.constraints, candidates), run);
+  mark_outliers(candidates, solution.outliers);
+  candidates.insert(candidates.begin(), map.loops.begin(), map.loops.end());
+  StageWriter writer = file.begin(stage);
+  writer.put_loops(candidates);
+  writer.put_estimate(solution.T_world_keyframe);
+  writer.put_constraints(solution.kept);
+  writer.commit();
+}
+
+/// Refines the poses of all keyframes together, so that the division into submaps costs no
+/// accuracy.
+void refine(MapFile& file, HybridMap map, std::vector<LoopCandidate> candidates,
+            const std::string& stage, bool last_round, const Run& run) {
+  graph::PoseOptimizerOptions options;
+  options.threads = run.threads;
+  const std::vector<Pose> T_world_keyframe =
+      graph::optimize(graph_of_all(map.track, keyframe_poses(map), map.constraints), options).poses;
+  move_submaps(map, T_world_keyframe);
+  candidates.insert(candidates.begin(), map.loops.begin(), map.loops.end());
+  const bool settled = last_round || stand(file.load_estimate(), T_world_keyframe);
+  MapSolution solution = file.load_solution();
+  solution.T_world_submap = map.T_world_submap;
+  StageWriter writer = file.begin(settled ? kSettled : stage);
+  writer.put_loops(candidates);
+  writer.put_estimate(T_world_keyframe);
+  for (const Submap& submap : map.submaps) writer.put_submap(submap);
+  writer.put_solution(solution);
+  writer.commit();
+}
+
+void close_loops(MapFile& file, const std::string& stage, bool last_round, const Run& run) {
+  const HybridMap map = file.load_map();
+  std::vector<LoopCandidate> candidates;
+  // A loop that is found in the last round could not be made part of the submaps any more.
+  if (!last_round) candidates = find_loops(map, keyframe_poses(map), file, run);
+  const bool found = std::any_of(candidates.begin(), candidates.end(), [](const LoopCandidate& c) {
+    return c.verdict == LoopVerdict::accepted;
+  });
+  if (found) return take_loops(file, map, std::move(candidates), stage, run);
+  refine(file, map, std::move(candidates), stage, last_round, run);
+}
+
+/// The stages of one run: skips what the file already has, times the rest.
+class Stages {
+ public:
+  Stages(const MapFile& file, const Run& run) : file_(file), run_(run) {}
+
+  template <typename Work>
+  void operator()(const std::string& stage, Work&& work) {
+    if (file_.finished(stage)) return;
+    if (run_.stop_requested()) throw Interrupted{};
+    const auto start = std::chrono::steady_clock::now();
+    work(stage);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    times_.push_back({stage, taken.count()});
+  }
+  const std::vector<StageTime>& times() const { return times_; }
+
+ private:
+  const MapFile& file_;
+  const Run& run_;
+  std::vector<StageTime> times_;
+};
+
+void improve(MapFile& file, const Track& track, int round, const Options& options, const Run& run,
+             Stages& stages) {
+  using Name = const std::string&;
+  const std::string name = "round" + std::to_string(round);
+  stages(name + ".overlap", [&](Name stage) { find_overlap(file, track, stage, options, run); });
+  stages(name + ".submaps", [&](Name stage) { make_submaps(file, track, stage, options, run); });
+  stages(name + ".loops", [&](Name stage) { close_loops(file, stage, round == kMaxRounds, run); });
+}
+
+}  // namespace
+
+std::string to_json(const Options& options) {
+  const nlohmann::ordered_json json = {
+      {"track",
+       {{"keyframe_distance_m", options.track.keyframe_distance_m},
+        {"keyframe_angle_rad", options.track.keyframe_angle_rad}}},
+      {"overlap",
+       {{"max_mahalanobis", options.overlap.max_mahalanobis},
+        {"min_overlap", options.overlap.min_overlap}}},
+      {"local", {{"min_overlap", options.local.min_overlap}}},
+      {"partition",
+       {{"tau", options.partition.tau}, {"min_keyframes", options.partition.min_keyframes}}},
+      {"octree", {{"resolution_m", options.octree_resolution_m}}}};
+  return json.dump();
+}
+
+BuildResult build_map(const std::filesystem::path& log, const std::filesystem::path& map,
+                      const Options& options, MapFile::Existing existing, const Run& run) {
+  MapOrigin origin;
+  origin.log_path = log.string();
+  origin.log_digest = log_digest(log);
+  origin.options_json = to_json(options);
+  BuildResult result{MapFile::open_for_run(map, origin, existing), {}};
+  MapFile& file = result.file;
+  Stages stages(file, run);
+  stages("track",
+         [&](const std::string& stage) { read_and_track(file, stage, log, options, run); });
+  const Track track = file.load_track();
+  for (int round = 1; !file.finished(kSettled); ++round)
+    improve(file, track, round, options, run, stages);
+  result.times = stages.times();
+  return result;
+}
+
+}  // namespace hmt::submap
