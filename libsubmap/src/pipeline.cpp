@@ -53,6 +53,7 @@ void read_and_track(MapFile& file, const std::string& stage, const std::filesyst
       *reader, options.track, [&writer](const Observation& o) { writer.add(o); }, run);
   writer.put_track(track);
   writer.put_constraints(track.odometry);
+  writer.put_loops({});
   writer.put_estimate(track_poses(track));
   writer.commit();
 }
