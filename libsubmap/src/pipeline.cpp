@@ -18,6 +18,7 @@
 #include "hmt/submap/link/condense_links.hpp"
 #include "hmt/submap/link/robust_solution.hpp"
 #include "hmt/submap/local/optimize_submap.hpp"
+#include "hmt/submap/map/octree.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -290,6 +291,34 @@ void improve(MapFile& file, const Track& track, int round, const Options& option
   stages(name + ".loops", [&](Name stage) { close_loops(file, stage, round == kMaxRounds, run); });
 }
 
+/// Builds the OctoMaps of a few submaps at a time and commits each of them on its own.
+void build_octrees(MapFile& file, const Options& options, const Run& run) {
+  const HybridMap map = file.load_map();
+  std::vector<int> missing;
+  for (const Submap& submap : map.submaps)
+    if (!file.has_octree(submap.id)) missing.push_back(submap.id);
+  const OctreeOptions octree{options.octree_resolution_m};
+  const auto batch = static_cast<size_t>(2 * run.threads);
+  tbb::task_arena arena(run.threads);
+  for (size_t begin = 0; begin < missing.size(); begin += batch) {
+    if (run.stop_requested()) throw Interrupted{};
+    run.report({"octomap", static_cast<double>(begin), static_cast<double>(missing.size())});
+    std::vector<std::string> trees(std::min(batch, missing.size() - begin));
+    arena.execute([&] {
+      tbb::parallel_for(size_t{0}, trees.size(), [&](size_t k) {
+        const Submap& submap = map.submaps[static_cast<size_t>(missing[begin + k])];
+        trees[k] =
+            build_octree(observations_in_submap(map.track, submap), file, map.track.space, octree);
+      });
+    });
+    for (size_t k = 0; k < trees.size(); ++k) {
+      StageWriter writer = file.begin("octomap" + std::to_string(missing[begin + k]));
+      writer.put_octree(missing[begin + k], trees[k]);
+      writer.commit();
+    }
+  }
+}
+
 }  // namespace
 
 std::string to_json(const Options& options) {
@@ -321,6 +350,10 @@ BuildResult build_map(const std::filesystem::path& log, const std::filesystem::p
   const Track track = file.load_track();
   for (int round = 1; !file.finished(kSettled); ++round)
     improve(file, track, round, options, run, stages);
+  stages("octomap", [&](const std::string& stage) {
+    build_octrees(file, options, run);
+    file.begin(stage).commit();
+  });
   result.times = stages.times();
   return result;
 }

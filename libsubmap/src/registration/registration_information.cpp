@@ -103,7 +103,8 @@ Matrix6d with_shared_error(const Matrix6d& information, double range_m) {
   const Matrix6d limited =
       eigen.eigenvectors() * kept.asDiagonal() * eigen.eigenvectors().transpose();
   const Vector6d inverse = shared.cwiseInverse();
-  return inverse.asDiagonal() * limited * inverse.asDiagonal();
+  // Rounding must not leave it unsymmetric.
+  return inverse.asDiagonal() * ((limited + limited.transpose()) / 2) * inverse.asDiagonal();
 }
 
 }  // namespace
