@@ -9,6 +9,9 @@
 
 namespace hmt::apps {
 
+/// True for an SQLite database, whatever is in it; false where there is no such file.
+bool is_map_file(const std::filesystem::path& path);
+
 /// T_world_robot of every observation of a map, or the poses of a TUM file; told apart by content.
 std::vector<submap::StampedPose> load_trajectory(const std::filesystem::path& path);
 
