@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The hmtmap authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <zstd.h>
+
 #include <boost/iostreams/categories.hpp>
 #include <boost/iostreams/filter/bzip2.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
-#include <boost/iostreams/filter/zstd.hpp>
 #include <boost/iostreams/read.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <vector>
 
 #include "hmt/graph/input_error.hpp"
 #include "line_source.hpp"
@@ -57,6 +59,10 @@ class File {
   int64_t bytes_read_ = 0;
 };
 
+std::string damage_text(const File& file) {
+  return "compressed data damaged or cut at byte " + std::to_string(file.bytes_read());
+}
+
 class PlainSource : public ByteSource {
  public:
   explicit PlainSource(File file) : file_(std::move(file)) {}
@@ -87,7 +93,7 @@ class CompressedSource : public ByteSource {
           io::read(filter_, file_, out, static_cast<std::streamsize>(size));
       return static_cast<size_t>(std::max<std::streamsize>(0, count));
     } catch (const std::ios_base::failure&) {
-      damage_ = "compressed data damaged or cut at byte " + std::to_string(file_.bytes_read());
+      damage_ = damage_text(file_);
       return strnlen(out, size);
     }
   }
@@ -97,6 +103,46 @@ class CompressedSource : public ByteSource {
  private:
   File file_;
   Filter filter_;
+  std::string damage_;
+};
+
+/// Reads with libzstd itself: Boost's zstd_decompressor takes a file that was cut for a whole one.
+class ZstdSource : public ByteSource {
+ public:
+  explicit ZstdSource(File file)
+      : file_(std::move(file)), context_(ZSTD_createDCtx(), &ZSTD_freeDCtx) {}
+
+  size_t read(char* out, size_t size) override {
+    ZSTD_outBuffer output{out, size, 0};
+    while (output.pos < size && damage_.empty()) {
+      if (!output_waits_ && !refill()) break;
+      const size_t result = ZSTD_decompressStream(context_.get(), &output, &input_);
+      if (ZSTD_isError(result)) set_damage();
+      frame_is_complete_ = result == 0;
+      output_waits_ = output.pos == size || input_.pos < input_.size;
+    }
+    return output.pos;
+  }
+  const std::string& damage() const override { return damage_; }
+  int64_t bytes_read() const override { return file_.bytes_read(); }
+
+ private:
+  /// False at the end of the file.
+  bool refill() {
+    const std::streamsize count =
+        file_.read(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+    if (count <= 0 && !frame_is_complete_) set_damage();
+    input_ = {bytes_.data(), static_cast<size_t>(std::max<std::streamsize>(0, count)), 0};
+    return count > 0;
+  }
+  void set_damage() { damage_ = damage_text(file_); }
+
+  File file_;
+  std::unique_ptr<ZSTD_DCtx, size_t (*)(ZSTD_DCtx*)> context_;
+  std::vector<char> bytes_ = std::vector<char>(ZSTD_DStreamInSize());
+  ZSTD_inBuffer input_{nullptr, 0, 0};
+  bool output_waits_ = false;  ///< the last call may have left output or input behind
+  bool frame_is_complete_ = true;
   std::string damage_;
 };
 
@@ -114,8 +160,7 @@ std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path) {
     return std::make_unique<CompressedSource<io::gzip_decompressor>>(std::move(file));
   if (head.starts_with("BZh"))
     return std::make_unique<CompressedSource<io::bzip2_decompressor>>(std::move(file));
-  if (head == "\x28\xb5\x2f\xfd")
-    return std::make_unique<CompressedSource<io::zstd_decompressor>>(std::move(file));
+  if (head == "\x28\xb5\x2f\xfd") return std::make_unique<ZstdSource>(std::move(file));
   return std::make_unique<PlainSource>(std::move(file));
 }
 
