@@ -16,34 +16,42 @@ namespace {
 // Steps below this change nothing that a range sensor could tell.
 constexpr double kSmallStep_m = 2e-6;
 constexpr double kSmallStep_rad = 1e-6;
-// Holds the directions that neither surfaces nor prior fix: worth 1 m and 1 rad.
-constexpr double kWeakHold = 1.0;
+// Makes singular systems solvable; worth 100 m and 100 rad, so it holds nothing.
+constexpr double kNothing = 1e-4;
 
-// Gauss-Newton step in the tangent of the pose, frame source.
-Vector6d solve_step(const std::vector<Match>& matches, double scale_m, const Pose& T_target_source,
+// Solution of A x = b over the coordinates that the space has.
+Vector6d solve_in(Space space, const Matrix6d& A, const Vector6d& b) {
+  if (space == Space::se3) return A.ldlt().solve(b);
+  const Eigen::Array3i plane(0, 1, 5);
+  const Eigen::Matrix3d A_plane = A(plane, plane);
+  const Eigen::Vector3d b_plane = b(plane);
+  Vector6d x = Vector6d::Zero();
+  x(plane) = A_plane.ldlt().solve(b_plane);
+  return x;
+}
+
+// Step in the tangent of the pose, frame source. The least-squares step u = H^-1 g of the surfaces
+// enters as a measurement with their honest information I, not with H: noise in the normals makes
+// H fix directions that the geometry leaves free, and would hold the pose where it is against the
+// prior. With prior information P about the step d to the prior: (I + P) x = I u + P d.
+Vector6d solve_step(const SurfaceMatcher& matcher, const Pose& T_target_source,
                     const RegistrationOptions& options) {
-  Matrix6d H = Matrix6d::Zero();
+  Matrix6d H = kNothing * Matrix6d::Identity();
   Vector6d g = Vector6d::Zero();
-  for (const Match& match : matches) {
-    const double weight = robust_weight(match.residual_m, scale_m) / match.variance();
+  for (const Match& match : matcher.matches()) {
+    const double weight = robust_weight(match.residual_m, matcher.scale_m()) / match.variance();
     H.noalias() += weight * match.jacobian * match.jacobian.transpose();
     g.noalias() -= weight * match.residual_m * match.jacobian;
   }
+  Matrix6d information = honest_information(matcher, options.space);
+  Vector6d weighted = information * solve_in(options.space, H, g);
   if (options.prior) {
-    const Vector6d to_prior = boxminus(options.prior->T_target_source, T_target_source);
-    H += options.prior->information;
-    g += options.prior->information * to_prior;
+    information += options.prior->information;
+    weighted +=
+        options.prior->information * boxminus(options.prior->T_target_source, T_target_source);
   }
-  H.diagonal().array() += kWeakHold;
-  Vector6d step = Vector6d::Zero();
-  if (options.space == Space::se2) {
-    const Eigen::Array3i plane(0, 1, 5);
-    const Eigen::Matrix3d H_plane = H(plane, plane);
-    const Eigen::Vector3d g_plane = g(plane);
-    step(plane) = H_plane.ldlt().solve(g_plane);
-  } else {
-    step = H.ldlt().solve(g);
-  }
+  information += kNothing * Matrix6d::Identity();
+  const Vector6d step = solve_in(options.space, information, weighted);
   // The chart of rotations ends at 2; no step needs to be that large.
   const double angle = step.tail<3>().norm();
   return angle > 0.5 ? Vector6d(step * (0.5 / angle)) : step;
@@ -62,9 +70,9 @@ Registration register_surface(const Surface& source, const RegistrationTarget& t
   result.T_target_source = T_target_source_guess;
   SurfaceMatcher matcher(source, target.impl(), options.max_correspondence_m);
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
-    const std::vector<Match>& matches = matcher.match(result.T_target_source);
-    if (matches.size() < 3) return result;
-    const Vector6d step = solve_step(matches, matcher.scale_m(), result.T_target_source, options);
+    matcher.match(result.T_target_source);
+    if (matcher.matches().size() < 3) return result;
+    const Vector6d step = solve_step(matcher, result.T_target_source, options);
     result.T_target_source = boxplus(result.T_target_source, step);
     result.termination = Registration::Termination::iteration_limit;
     if (is_small(step) && !matcher.shrunk()) {

@@ -20,7 +20,6 @@ struct InlierSums {
   Matrix6d information = Matrix6d::Zero();
   double chi2 = 0;
   double inflation = 0;  // sum over inliers of (s2 + m t2) / (s2 + t2)
-  double residual2 = 0;
   double range2 = 0;
   int count = 0;
 };
@@ -62,7 +61,6 @@ InlierSums sum_inliers(const SurfaceMatcher& matcher, Space space) {
     sums.information += unbiased_outer(match, p, space) / independent;
     sums.chi2 += match.residual_m * match.residual_m / match.variance();
     sums.inflation += independent / match.variance();
-    sums.residual2 += match.residual_m * match.residual_m;
     sums.range2 += p.squaredNorm();
     ++sums.count;
   }
@@ -109,17 +107,10 @@ Matrix6d with_shared_error(const Matrix6d& information, double range_m) {
 
 }  // namespace
 
-void summarize(const SurfaceMatcher& matcher, Space space, Registration& result) {
-  for (const Match& match : matcher.matches())
-    if (std::abs(match.residual_m) <=
-        std::max(matcher.scale_m(), kInlierDeviations * std::sqrt(match.variance())))
-      ++result.inliers;
-  result.inlier_fraction =
-      result.inliers / static_cast<double>(std::max<size_t>(1, matcher.usable()));
+Matrix6d honest_information(const SurfaceMatcher& matcher, Space space) {
   const InlierSums sums = sum_inliers(matcher, space);
   const int unknowns = space == Space::se2 ? 3 : 6;
-  if (sums.count <= unknowns) return;
-  result.rmse_m = std::sqrt(sums.residual2 / sums.count);
+  if (sums.count <= unknowns) return Matrix6d::Zero();
   const double variance_factor =
       sums.chi2 / (sums.count - unknowns) * correlation_inflation(matcher);
   const double accounted = sums.inflation / sums.count;
@@ -129,7 +120,21 @@ void summarize(const SurfaceMatcher& matcher, Space space, Registration& result)
       information.row(i).setZero();
       information.col(i).setZero();
     }
-  result.information = with_shared_error(information, std::sqrt(sums.range2 / sums.count));
+  return with_shared_error(information, std::sqrt(sums.range2 / sums.count));
+}
+
+void summarize(const SurfaceMatcher& matcher, Space space, Registration& result) {
+  double residual2 = 0;
+  for (const Match& match : matcher.matches())
+    if (std::abs(match.residual_m) <=
+        std::max(matcher.scale_m(), kInlierDeviations * std::sqrt(match.variance()))) {
+      ++result.inliers;
+      residual2 += match.residual_m * match.residual_m;
+    }
+  if (result.inliers == 0) return;
+  result.inlier_fraction = result.inliers / static_cast<double>(matcher.usable());
+  result.rmse_m = std::sqrt(residual2 / result.inliers);
+  result.information = honest_information(matcher, space);
 }
 
 }  // namespace hmt::submap

@@ -6,6 +6,9 @@
 
 namespace hmt::submap {
 
+/// Inverse covariance of the pose by the last matches, see register_surface.
+Matrix6d honest_information(const SurfaceMatcher& matcher, Space space);
+
 /// Fills in information, inliers, inlier_fraction and rmse_m from the last matches.
 void summarize(const SurfaceMatcher& matcher, Space space, Registration& result);
 

@@ -34,12 +34,11 @@ SurfaceMatcher::SurfaceMatcher(const Surface& source, const RegistrationTarget::
   matches_.reserve(usable_.size());
 }
 
-const std::vector<Match>& SurfaceMatcher::match(const Pose& T_target_source) {
+void SurfaceMatcher::match(const Pose& T_target_source) {
   matches_.clear();
   const Eigen::Matrix3d R = T_target_source.rotation_matrix();
   for (const uint32_t i : usable_) find_match(i, T_target_source, R);
   shrink();
-  return matches_;
 }
 
 void SurfaceMatcher::find_match(uint32_t i, const Pose& T_target_source, const Eigen::Matrix3d& R) {

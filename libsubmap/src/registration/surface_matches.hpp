@@ -32,7 +32,7 @@ class SurfaceMatcher {
  public:
   SurfaceMatcher(const Surface& source, const RegistrationTarget::Impl& target, double radius_m);
 
-  const std::vector<Match>& match(const Pose& T_target_source);
+  void match(const Pose& T_target_source);
   const std::vector<Match>& matches() const { return matches_; }
   double scale_m() const { return scale_m_; }
   /// Whether the last call narrowed the scale by more than a percent.

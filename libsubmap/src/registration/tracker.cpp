@@ -36,10 +36,9 @@ Matrix6d unknown_step(Space space) {
 constexpr double kLeastInlierFraction = 0.5;
 // Chi2 of three degrees of freedom beyond which a prediction is doubted (one in a thousand).
 constexpr double kDoubtful2 = 16;
-// Wheels slip and clocks jitter with heavy tails: what is doubted may be this much wronger.
-constexpr double kDoubtInflation2 = 100;
-// Between registrations of nearly the same quality the one nearer to the odometry is taken.
-constexpr double kRankPerMahalanobis2 = 0.01;
+// Between registrations of nearly the same quality the one nearer to the odometry is taken; wheels
+// slip and clocks jitter with heavy tails, hence the logarithm.
+constexpr double kRankPerDoubt = 0.02;
 constexpr int kStarts = 3;
 constexpr double kLeastWindow_m = 0.5, kLargestWindow_m = 2.0;
 constexpr double kLeastWindow_rad = 0.3, kLargestWindow_rad = 1.0;
@@ -137,9 +136,6 @@ Tracker::Estimate Tracker::estimate(const Surface& surface, const Prediction& pr
 
 Registration Tracker::search(const Surface& surface, const Prediction& prediction,
                              const Registration& first) {
-  RegistrationOptions options;
-  options.space = space_;
-  options.prior = PosePrior{prediction.T_track_robot, prediction.information / kDoubtInflation2};
   const Eigen::Matrix2d planar = prediction.covariance.topLeftCorner<2, 2>();
   const double sigma_m = std::sqrt(planar.trace());
   const double sigma_rad = std::sqrt(prediction.covariance(5, 5));
@@ -152,10 +148,18 @@ Registration Tracker::search(const Surface& surface, const Prediction& predictio
   Registration best = first;
   double best_rank = -1;
   for (const Pose& start : starts) {
+    // The odometry is as wrong as the start says, but only in that direction: along a corridor, of
+    // which the start knows nothing, it still counts.
+    const Vector6d error = boxminus(start, prediction.T_track_robot);
+    RegistrationOptions options;
+    options.space = space_;
+    options.prior =
+        PosePrior{prediction.T_track_robot,
+                  inverse_in(space_, prediction.covariance + 4 * error * error.transpose())};
     const Registration found = register_surface(surface, map_.target(), start, options);
     const double rank =
         found.inlier_fraction -
-        kRankPerMahalanobis2 * mahalanobis2(found.T_target_source, prediction) / kDoubtInflation2;
+        kRankPerDoubt * std::log1p(mahalanobis2(found.T_target_source, prediction) / kDoubtful2);
     if (is_good(found) && rank > best_rank) {
       best = found;
       best_rank = rank;
