@@ -31,9 +31,10 @@ Vector6d solve_in(Space space, const Matrix6d& A, const Vector6d& b) {
 }
 
 // Step in the tangent of the pose, frame source. The least-squares step u = H^-1 g of the surfaces
-// enters as a measurement with their honest information I, not with H: noise in the normals makes
-// H fix directions that the geometry leaves free, and would hold the pose where it is against the
-// prior. With prior information P about the step d to the prior: (I + P) x = I u + P d.
+// enters as a measurement with the information I that the geometry supports, not with H: noise in
+// the normals makes H fix directions that the geometry leaves free, and would hold the pose where
+// it is against the prior. With prior information P about the step d to the prior: (I + P) x = I u
+// + P d.
 Vector6d solve_step(const SurfaceMatcher& matcher, const Pose& T_target_source,
                     const RegistrationOptions& options) {
   Matrix6d H = kNothing * Matrix6d::Identity();
@@ -43,7 +44,7 @@ Vector6d solve_step(const SurfaceMatcher& matcher, const Pose& T_target_source,
     H.noalias() += weight * match.jacobian * match.jacobian.transpose();
     g.noalias() -= weight * match.residual_m * match.jacobian;
   }
-  Matrix6d information = honest_information(matcher, options.space);
+  Matrix6d information = geometric_information(matcher, options.space);
   Vector6d weighted = information * solve_in(options.space, H, g);
   if (options.prior) {
     information += options.prior->information;

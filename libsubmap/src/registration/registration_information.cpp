@@ -10,8 +10,10 @@
 namespace hmt::submap {
 namespace {
 
-// A point meets the surface within so many standard deviations.
+// A point meets the surface within so many standard deviations, or within what real walls deviate
+// from the straight.
 constexpr double kInlierDeviations = 3;
+constexpr double kInlierDistance_m = 0.05;
 // Ranges come in steps of a centimetre from common lasers: uniform error of 2.9 mm that all beams
 // on a wall may share, so no number of beams takes it away.
 constexpr double kSharedError_m = 0.003;
@@ -105,7 +107,22 @@ Matrix6d with_shared_error(const Matrix6d& information, double range_m) {
   return inverse.asDiagonal() * ((limited + limited.transpose()) / 2) * inverse.asDiagonal();
 }
 
+Matrix6d in_space(Space space, Matrix6d information) {
+  if (space == Space::se2)
+    for (const int i : {2, 3, 4}) {
+      information.row(i).setZero();
+      information.col(i).setZero();
+    }
+  return information;
+}
+
 }  // namespace
+
+Matrix6d geometric_information(const SurfaceMatcher& matcher, Space space) {
+  const InlierSums sums = sum_inliers(matcher, space);
+  if (sums.count == 0) return Matrix6d::Zero();
+  return with_shared_error(in_space(space, sums.information), std::sqrt(sums.range2 / sums.count));
+}
 
 Matrix6d honest_information(const SurfaceMatcher& matcher, Space space) {
   const InlierSums sums = sum_inliers(matcher, space);
@@ -114,20 +131,16 @@ Matrix6d honest_information(const SurfaceMatcher& matcher, Space space) {
   const double variance_factor =
       sums.chi2 / (sums.count - unknowns) * correlation_inflation(matcher);
   const double accounted = sums.inflation / sums.count;
-  Matrix6d information = sums.information / std::max(1.0, variance_factor / accounted);
-  if (space == Space::se2)
-    for (const int i : {2, 3, 4}) {
-      information.row(i).setZero();
-      information.col(i).setZero();
-    }
-  return with_shared_error(information, std::sqrt(sums.range2 / sums.count));
+  return with_shared_error(
+      in_space(space, sums.information) / std::max(1.0, variance_factor / accounted),
+      std::sqrt(sums.range2 / sums.count));
 }
 
 void summarize(const SurfaceMatcher& matcher, Space space, Registration& result) {
   double residual2 = 0;
   for (const Match& match : matcher.matches())
     if (std::abs(match.residual_m) <=
-        std::max(matcher.scale_m(), kInlierDeviations * std::sqrt(match.variance()))) {
+        std::max(kInlierDistance_m, kInlierDeviations * std::sqrt(match.variance()))) {
       ++result.inliers;
       residual2 += match.residual_m * match.residual_m;
     }

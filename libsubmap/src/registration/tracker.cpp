@@ -5,9 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
-#include "hmt/submap/registration/correlative.hpp"
 #include "information.hpp"
 
 namespace hmt::submap {
@@ -34,6 +34,8 @@ Matrix6d unknown_step(Space space) {
 // A registration is taken if so many of the usable points meet the local map; new sights open at
 // less than half of the view from one observation to the next.
 constexpr double kLeastInlierFraction = 0.5;
+// The same for a match that the odometry does not speak for at all.
+constexpr double kLeastFarInlierFraction = 0.75;
 // Chi2 of three degrees of freedom beyond which a prediction is doubted (one in a thousand).
 constexpr double kDoubtful2 = 16;
 // Between registrations of nearly the same quality the one nearer to the odometry is taken; wheels
@@ -141,6 +143,15 @@ Registration Tracker::search(const Surface& surface, const Prediction& predictio
   const double sigma_rad = std::sqrt(prediction.covariance(5, 5));
   const CorrelativeWindow window{std::clamp(5 * sigma_m, kLeastWindow_m, kLargestWindow_m),
                                  std::clamp(5 * sigma_rad, kLeastWindow_rad, kLargestWindow_rad)};
+  const Registration near = search_within(window, surface, prediction, first);
+  if (is_good(near)) return near;
+  const Registration far =
+      search_within({kLargestWindow_m, std::numbers::pi}, surface, prediction, near);
+  return far.inlier_fraction >= kLeastFarInlierFraction ? far : near;
+}
+
+Registration Tracker::search_within(const CorrelativeWindow& window, const Surface& surface,
+                                    const Prediction& prediction, const Registration& first) {
   std::vector<Pose> starts{first.T_target_source};
   for (const CorrelativeMatch& match :
        correlative_search(surface, map_.target(), prediction.T_track_robot, window, kStarts))

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "hmt/submap/registration/correlative.hpp"
 #include "hmt/submap/registration/track.hpp"
 #include "local_map.hpp"
 #include "odometry_model.hpp"
@@ -42,6 +43,8 @@ class Tracker {
   Estimate estimate(const Surface& surface, const Prediction& prediction);
   Registration search(const Surface& surface, const Prediction& prediction,
                       const Registration& first);
+  Registration search_within(const CorrelativeWindow& window, const Surface& surface,
+                             const Prediction& prediction, const Registration& first);
   double mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const;
   void start(const Observation& observation);
   void add_keyframe(const Observation& observation, const Estimate& estimate, Surface surface);
