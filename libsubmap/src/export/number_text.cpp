@@ -35,4 +35,15 @@ void append_stamp(std::string& out, double stamp_s) {
   out += text;
 }
 
+std::string number_text(double value) {
+  Digits digits;
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+std::string fixed_text(double value, int decimals) {
+  std::string text;
+  append_number(text, value, decimals);
+  return text.substr(1);
+}
+
 }  // namespace hmt::submap

@@ -79,9 +79,9 @@ octomap::OcTree read_tree(std::string_view ot_bytes) {
 
 std::string build_octree(std::span<const PlacedObservation> observations,
                          const ObservationStore& store, Space space, const OctreeOptions& options) {
-  if (!(options.resolution_m >= 0.01 && options.resolution_m <= 1))
+  if (!(options.resolution_m >= 0.005 && options.resolution_m <= 10))
     throw InputError("octree resolution_m is " + std::to_string(options.resolution_m) +
-                     "; it must lie in [0.01, 1]");
+                     "; it must lie in [0.005, 10]");
   BlockGrid<LogOddsCell> grid;
   uint32_t reading_number = 0;
   for (const PlacedObservation& placed : observations)
@@ -111,6 +111,22 @@ std::vector<OctreeCell> octree_cells(std::string_view ot_bytes) {
                      leaf->getLogOdds(),
                      tree.isNodeOccupied(*leaf)});
   return cells;
+}
+
+std::vector<bool> in_occupied_cells(std::string_view ot_bytes,
+                                    std::span<const Eigen::Vector3d> points) {
+  const octomap::OcTree tree = read_tree(ot_bytes);
+  std::vector<bool> occupied;
+  occupied.reserve(points.size());
+  for (const Eigen::Vector3d& p : points) {
+    const octomap::OcTreeNode* node = tree.search(p.x(), p.y(), p.z());
+    occupied.push_back(node && tree.isNodeOccupied(node));
+  }
+  return occupied;
+}
+
+double octree_resolution(std::string_view ot_bytes) {
+  return read_tree(ot_bytes).getResolution();
 }
 
 std::string octree_to_bt(std::string_view ot_bytes) {

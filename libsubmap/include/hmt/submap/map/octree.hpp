@@ -13,7 +13,7 @@
 namespace hmt::submap {
 
 struct OctreeOptions {
-  /// Side of a cell, metres, [0.01, 1]; raising it makes maps smaller and coarser.
+  /// Side of a cell, metres, [0.005, 10]; raising it makes maps smaller and coarser.
   double resolution_m = 0.05;
 };
 
@@ -35,6 +35,11 @@ struct OctreeCell {
 
 /// The leaves of an .ot tree. Throws InputError where the bytes are not a whole tree.
 std::vector<OctreeCell> octree_cells(std::string_view ot_bytes);
+/// For each point in the frame of an .ot tree, whether it lies in an occupied cell.
+std::vector<bool> in_occupied_cells(std::string_view ot_bytes,
+                                    std::span<const Eigen::Vector3d> points);
+/// Side of the smallest cells of an .ot tree, metres.
+double octree_resolution(std::string_view ot_bytes);
 /// The same tree in OctoMap's smaller .bt format: free and occupied only.
 std::string octree_to_bt(std::string_view ot_bytes);
 
