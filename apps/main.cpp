@@ -19,6 +19,8 @@ namespace {
 // In the order of the work; one file a command.
 const std::vector<Command> kCommands = {
     {"map", "Make a hybrid map of a log", add_map},
+    {"export", "Write the files of a map: submaps, topology, trajectory, image, report",
+     add_export},
     {"evaluate", "Errors of a map or trajectory against truth", add_evaluate},
     {"partition", "Cut an overlap graph into groups by recursive spectral min-Ncut", add_partition},
     {"compare", "How alike two partitions are", add_compare},

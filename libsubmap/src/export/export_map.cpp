@@ -43,8 +43,6 @@ class Export {
     write("topology.dot", topology_dot(map_));
   }
 
-  void pose_graph() const { write("pose_graph.g2o", pose_graph_g2o(map_)); }
-
   void map() {
     write("map.pgm", to_pgm(image()));
     write("map.yaml", to_map_yaml(image(), "map.pgm"));
@@ -65,8 +63,8 @@ class Export {
         }
         write_submap(map_.submaps[id]);
         const std::lock_guard lock(mutex);
-        run_.report({"submaps", static_cast<double>(++done),
-                     static_cast<double>(map_.submaps.size())});
+        run_.report(
+            {"submaps", static_cast<double>(++done), static_cast<double>(map_.submaps.size())});
       });
     });
     if (stopped) throw Interrupted{};
@@ -146,9 +144,10 @@ const std::vector<Part>& parts() {
          return Files{"topology.json", "topology.graphml", "topology.dot"};
        },
        [](Export& work) { work.topology(); }},
-      {"pose_graph", [](const HybridMap&) { return Files{"pose_graph.g2o"}; },
-       [](Export& work) { work.pose_graph(); }},
-      {"map", [](const HybridMap&) { return Files{"map.pgm", "map.yaml"}; },
+      {"map",
+       [](const HybridMap&) {
+         return Files{"map.pgm", "map.yaml"};
+       },
        [](Export& work) { work.map(); }},
       {"submaps", submap_files, [](Export& work) { work.submaps(); }},
       {"loops", [](const HybridMap&) { return Files{"loops.jsonl"}; },
@@ -178,8 +177,7 @@ std::vector<const Part*> chosen_parts(const ExportOptions& options, bool planar)
   return chosen;
 }
 
-void prepare_folder(const fs::path& folder, const std::vector<std::string>& files,
-                    bool overwrite) {
+void prepare_folder(const fs::path& folder, const std::vector<std::string>& files, bool overwrite) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder))

@@ -21,8 +21,10 @@ struct View {
   double height = 0;
 
   std::string point(const Eigen::Vector3d& p_world) const {
-    return fixed_text((p_world.x() - low.x()) * pixels_per_m, 1) + "," +
-           fixed_text(height - (p_world.y() - low.y()) * pixels_per_m, 1);
+    std::string text;
+    append_number(text, (p_world.x() - low.x()) * pixels_per_m, 1);
+    append_number(text, height - (p_world.y() - low.y()) * pixels_per_m, 1);
+    return text;
   }
 };
 
@@ -39,8 +41,7 @@ View view_of(const std::vector<Pose>& T_world_keyframe, const OccupancyImage* wa
                          walls->resolution_m * Eigen::Vector2d(walls->width, walls->height));
   }
   View view;
-  view.pixels_per_m =
-      (kSidePixels - 2 * kMarginPixels) / std::max(1.0, (high - low).maxCoeff());
+  view.pixels_per_m = (kSidePixels - 2 * kMarginPixels) / std::max(1.0, (high - low).maxCoeff());
   view.low = low - Eigen::Vector2d::Constant(kMarginPixels / view.pixels_per_m);
   view.width = (high - low).x() * view.pixels_per_m + 2 * kMarginPixels;
   view.height = (high - low).y() * view.pixels_per_m + 2 * kMarginPixels;
@@ -69,7 +70,8 @@ std::string wall_path(const OccupancyImage& walls, const View& view) {
       const Eigen::Vector2d at =
           walls.origin + walls.resolution_m * Eigen::Vector2d(start, row + side / 2.0);
       const double length = (column - start) * walls.resolution_m * view.pixels_per_m;
-      path += "M" + view.point({at.x(), at.y(), 0}) + "h" + fixed_text(length, 1);
+      path.append("M").append(view.point({at.x(), at.y(), 0})).append("h");
+      path.append(fixed_text(length, 1));
     }
   return "<path d=\"" + path + "\" stroke=\"#444\" stroke-width=\"" + thickness +
          "\" fill=\"none\"/>\n";
@@ -89,7 +91,7 @@ std::string trajectory_lines(const HybridMap& map, const std::vector<Pose>& T_wo
     svg += "<polyline fill=\"none\" stroke-width=\"2.5\" stroke=\"" + color(submap) +
            "\" points=\"" + view.point(T_world_keyframe[k].translation);
     for (++k; k < T_world_keyframe.size(); ++k) {
-      svg += " " + view.point(T_world_keyframe[k].translation);
+      svg += view.point(T_world_keyframe[k].translation);
       if (map.submap_of_keyframe[k] != submap) break;
     }
     svg += "\"/>\n";
@@ -110,7 +112,8 @@ std::string graph_lines(const HybridMap& map, const View& view) {
   for (const Link& link : map.links) {
     const std::string a = view.point(middle(map, map.submaps[static_cast<size_t>(link.a)]));
     const std::string b = view.point(middle(map, map.submaps[static_cast<size_t>(link.b)]));
-    svg += "<path d=\"M" + a + "L" + b + "\" stroke=\"#000\" stroke-opacity=\"0.4\" "
+    svg += "<path d=\"M" + a + " L" + b +
+           "\" stroke=\"#000\" stroke-opacity=\"0.4\" "
            "stroke-dasharray=\"4 3\"/>\n";
   }
   for (const Submap& submap : map.submaps) {
@@ -133,8 +136,7 @@ std::string map_svg(const HybridMap& map, const OccupancyImage* walls) {
                     fixed_text(view.width, 0) + " " + fixed_text(view.height, 0) +
                     "\" font-family=\"sans-serif\">\n";
   if (walls) svg += wall_path(*walls, view);
-  return svg + trajectory_lines(map, T_world_keyframe, view) + graph_lines(map, view) +
-         "</svg>\n";
+  return svg + trajectory_lines(map, T_world_keyframe, view) + graph_lines(map, view) + "</svg>\n";
 }
 
 }  // namespace hmt::submap

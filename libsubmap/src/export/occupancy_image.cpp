@@ -92,8 +92,7 @@ Bounds bounds_of(const BlockGrid<CountedCell>& grid) {
 }  // namespace
 
 OccupancyImage draw_occupancy(std::span<const PlacedObservation> observations,
-                              const ObservationStore& store, double resolution_m,
-                              const Run& run) {
+                              const ObservationStore& store, double resolution_m, const Run& run) {
   if (!(resolution_m >= 0.005 && resolution_m <= 10))
     throw InputError("map resolution is " + number_text(resolution_m) +
                      " m; it must lie in [0.005, 10]");
@@ -109,8 +108,8 @@ OccupancyImage draw_occupancy(std::span<const PlacedObservation> observations,
   image.resolution_m = resolution_m;
   image.width = bounds.max.x() - bounds.min.x() + 3;
   image.height = bounds.max.y() - bounds.min.y() + 3;
-  image.origin = corner.head<2>() + resolution_m * (bounds.min.head<2>().cast<double>() -
-                                                    Eigen::Vector2d::Ones());
+  image.origin = corner.head<2>() +
+                 resolution_m * (bounds.min.head<2>().cast<double>() - Eigen::Vector2d::Ones());
   if (static_cast<double>(image.width) * image.height > kMaxCells)
     throw InputError("the map image would have " + std::to_string(image.width) + " x " +
                      std::to_string(image.height) + " cells; give a larger --resolution");
@@ -126,8 +125,8 @@ OccupancyImage draw_occupancy(std::span<const PlacedObservation> observations,
 }
 
 std::string to_pgm(const OccupancyImage& image) {
-  std::string pgm = "P5\n" + std::to_string(image.width) + " " + std::to_string(image.height) +
-                    "\n255\n";
+  std::string pgm =
+      "P5\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n";
   for (int row = image.height - 1; row >= 0; --row)
     for (int column = 0; column < image.width; ++column)
       pgm += static_cast<char>(image.at(column, row));
@@ -135,8 +134,8 @@ std::string to_pgm(const OccupancyImage& image) {
 }
 
 std::string to_map_yaml(const OccupancyImage& image, const std::string& pgm_name) {
-  return "image: " + pgm_name + "\nresolution: " + number_text(image.resolution_m) +
-         "\norigin: [" + number_text(image.origin.x()) + ", " + number_text(image.origin.y()) +
+  return "image: " + pgm_name + "\nresolution: " + number_text(image.resolution_m) + "\norigin: [" +
+         number_text(image.origin.x()) + ", " + number_text(image.origin.y()) +
          ", 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 }
 

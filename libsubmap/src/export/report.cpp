@@ -70,8 +70,8 @@ std::string figures_table(const HybridMap& map, const MapOrigin& origin) {
 
 std::string submap_table(const HybridMap& map) {
   HtmlTable table("Submaps",
-                  {"id", "keyframes", "observations", "first stamp [s]", "last stamp [s]",
-                   "x [m]", "y [m]", "z [m]", "heading [deg]", "extent [m]", "chi2", "dof"});
+                  {"id", "keyframes", "observations", "first stamp [s]", "last stamp [s]", "x [m]",
+                   "y [m]", "z [m]", "heading [deg]", "extent [m]", "chi2", "dof"});
   for (const SubmapSummary& s : summarize_submaps(map)) {
     const auto id = static_cast<size_t>(s.id);
     const Pose& pose = map.T_world_submap[id];
@@ -88,15 +88,14 @@ std::string submap_table(const HybridMap& map) {
 }
 
 std::string link_table(const HybridMap& map) {
-  HtmlTable table("Links", {"a", "b", "x [m]", "y [m]", "z [m]", "heading [deg]",
-                            "sigma x, y [m]", "sigma heading [deg]",
-                            "odometry, registrations, loops", "Ncut", "information loss"});
+  HtmlTable table("Links", {"a", "b", "x [m]", "y [m]", "z [m]", "heading [deg]", "sigma x, y [m]",
+                            "sigma heading [deg]", "odometry, registrations, loops", "Ncut",
+                            "information loss"});
   for (const Link& link : map.links) {
     const EvidenceCount n = count_evidence(map, link);
     const auto sigma = [&](int k) { return std::sqrt(std::max(0.0, link.covariance(k, k))); };
     table.add({std::to_string(link.a), std::to_string(link.b),
-               fixed_text(link.T_a_b.translation.x(), 3),
-               fixed_text(link.T_a_b.translation.y(), 3),
+               fixed_text(link.T_a_b.translation.x(), 3), fixed_text(link.T_a_b.translation.y(), 3),
                fixed_text(link.T_a_b.translation.z(), 3), degrees(link.T_a_b.yaw_rad()),
                fixed_text(sigma(0), 4) + ", " + fixed_text(sigma(1), 4), degrees(sigma(5)),
                std::to_string(n.odometry) + ", " + std::to_string(n.registration) + ", " +

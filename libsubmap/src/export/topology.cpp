@@ -4,9 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "hmt/graph/g2o_file.hpp"
 #include "hmt/submap/export/map_summary.hpp"
-#include "hmt/submap/link/condense_links.hpp"
 #include "number_text.hpp"
 
 namespace hmt::submap {
@@ -92,13 +90,13 @@ std::string topology_graphml(const HybridMap& map) {
            data("observations", std::to_string(submap.observations)) +
            data("x", number_text(pose.translation.x())) +
            data("y", number_text(pose.translation.y())) +
-           data("z", number_text(pose.translation.z())) +
-           data("yaw", number_text(pose.yaw_rad())) + "</node>\n";
+           data("z", number_text(pose.translation.z())) + data("yaw", number_text(pose.yaw_rad())) +
+           "</node>\n";
   }
   for (const Link& link : map.links) {
     const Pose& step = link.T_a_b;
-    xml += "<edge source=\"s" + std::to_string(link.a) + "\" target=\"s" +
-           std::to_string(link.b) + "\">" + data("dx", number_text(step.translation.x())) +
+    xml += "<edge source=\"s" + std::to_string(link.a) + "\" target=\"s" + std::to_string(link.b) +
+           "\">" + data("dx", number_text(step.translation.x())) +
            data("dy", number_text(step.translation.y())) +
            data("dz", number_text(step.translation.z())) +
            data("dyaw", number_text(step.yaw_rad())) + data("ncut", number_text(link.ncut)) +
@@ -152,14 +150,6 @@ std::string loops_jsonl(const HybridMap& map) {
     lines += json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   }
   return lines;
-}
-
-std::string pose_graph_g2o(const HybridMap& map) {
-  graph::G2oFile file;
-  file.graph = submap_graph(map.track.space, map.T_world_submap, map.links);
-  for (size_t k = 0; k < file.graph.poses.size(); ++k)
-    file.ids.push_back(static_cast<int64_t>(k));
-  return graph::format_g2o(file);
 }
 
 }  // namespace hmt::submap

@@ -35,8 +35,8 @@ struct OccupancyImage {
 /// Draws planar observations: a cell is occupied if at least a quarter of the readings that said
 /// something of it had a point in it, free if there were fewer, unknown if there were none. With a
 /// border of one unknown cell; without observations one unknown cell. Same result for any number of
-/// threads. Throws InputError if the resolution is not in [0.005, 10] m or the image would have more
-/// than 10^9 cells.
+/// threads. Throws InputError if the resolution is not in [0.005, 10] m or the image would have
+/// more than 10^9 cells.
 OccupancyImage draw_occupancy(std::span<const PlacedObservation> observations,
                               const ObservationStore& store, double resolution_m, const Run& run);
 

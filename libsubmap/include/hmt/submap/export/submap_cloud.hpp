@@ -16,8 +16,7 @@ namespace hmt::submap {
 /// bytes), the mean of the points measured in that cell. Ordered by cell. Memory grows with the
 /// area that was seen.
 std::vector<Eigen::Vector3f> submap_cloud(std::span<const PlacedObservation> observations,
-                                          const ObservationStore& store,
-                                          std::string_view ot_bytes);
+                                          const ObservationStore& store, std::string_view ot_bytes);
 
 /// Binary little-endian PLY with x, y and z.
 std::string to_ply(std::span<const Eigen::Vector3f> points);
