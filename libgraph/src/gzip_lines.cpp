@@ -27,18 +27,18 @@ GzipLines::GzipLines(const std::filesystem::path& path)
 }
 
 std::optional<std::string_view> GzipLines::next() {
-  size_t scanned = 0;
+  size_t searched = 0;
   for (;;) {
     const char* const start = buffer_.data() + begin_;
     const size_t left = end_ - begin_;
     const auto* const newline =
-        static_cast<const char*>(std::memchr(start + scanned, '\n', left - scanned));
+        static_cast<const char*>(std::memchr(start + searched, '\n', left - searched));
     const size_t length = newline != nullptr ? static_cast<size_t>(newline - start) : left;
     if (length > kMaxLineBytes) {
       ++line_number_;
       refuse("the line is longer than 64 kB; this is not a text file of numbers");
     }
-    scanned = left;
+    searched = left;
     if (newline == nullptr && fill()) continue;
     if (newline == nullptr && left == 0) return std::nullopt;
     ++line_number_;
