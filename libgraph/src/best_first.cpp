@@ -13,6 +13,7 @@
 
 #include "bisection.hpp"
 #include "csr_graph.hpp"
+#include "hmt/graph/group_refinement.hpp"
 #include "hmt/graph/input_error.hpp"
 
 namespace hmt::graph {
@@ -108,7 +109,9 @@ class BestFirst {
 
 PartitionResult best_first_partition(const WeightedGraph& graph, const PartitionOptions& options,
                                      int threads) {
-  return BestFirst(options, threads).run(whole_graph(graph));
+  PartitionResult result = BestFirst(options, threads).run(whole_graph(graph));
+  if (options.refine) result.labels = refine_groups(graph, result.labels, options.min_size);
+  return result;
 }
 
 }  // namespace hmt::graph

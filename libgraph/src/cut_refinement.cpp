@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <queue>
 #include <vector>
 
 namespace hmt::graph {
@@ -17,17 +16,34 @@ constexpr int kMaxStall = 60;
 // Relative gain below which a change is rounding.
 constexpr double kMinGain = 1e-12;
 
+// cut(A)/assoc(A) + cut(B)/assoc(B); the cut between the sides is counted in both.
+double objective(const std::array<double, 2>& cut, const std::array<double, 2>& assoc) {
+  return (cut[0] > 0 ? cut[0] / assoc[0] : 0) + (cut[1] > 0 ? cut[1] / assoc[1] : 0);
+}
+
+double measure(const CsrGraph& graph, const Sides& sides, const std::vector<double>& outside) {
+  const Cut between = measure_cut(graph, sides);
+  std::array<double, 2> cut = {between.cut, between.cut};
+  std::array<double, 2> assoc = {between.assoc_a, between.assoc_b};
+  for (size_t i = 0; i < outside.size(); ++i) {
+    cut[sides[i]] += outside[i];
+    assoc[sides[i]] += outside[i];
+  }
+  return objective(cut, assoc);
+}
+
 class Refinement {
  public:
-  Refinement(const CsrGraph& graph, Sides& sides) : graph_(graph), sides_(sides) {
+  Refinement(const CsrGraph& graph, Sides& sides, const std::vector<double>& outside)
+      : graph_(graph), sides_(sides), outside_(outside) {
     to_other_.assign(sides.size(), 0);
     for (size_t i = 0; i < sides.size(); ++i) {
       ++count_[sides[i]];
-      assoc_[sides[i]] += graph.degrees[i];
       for_each_neighbor(i, [&](size_t j, double w) {
         if (sides[j] != sides[i]) to_other_[i] += w;
       });
-      if (sides[i] == 0) cut_ += to_other_[i];
+      assoc_[sides[i]] += degree(i);
+      cut_[sides[i]] += to_other_[i] + outside_weight(i);
     }
     locked_.assign(sides.size(), 0);
     key_.assign(sides.size(), 0);
@@ -52,26 +68,39 @@ class Refinement {
       f(static_cast<size_t>(graph_.columns[k]), graph_.weights[k]);
   }
 
-  double ncut() const { return cut_ / assoc_[0] + cut_ / assoc_[1]; }
+  double outside_weight(size_t i) const { return outside_.empty() ? 0 : outside_[i]; }
+  double degree(size_t i) const { return graph_.degrees[i] + outside_weight(i); }
 
-  // First-order drop of the Ncut if the node changes sides, with the totals of the start of the
-  // pass, so that keys of nodes whose neighbors stand still stay valid.
+  // First-order drop of the objective if the node changes sides, with the totals of the start of
+  // the pass, so that keys of nodes whose neighbors stand still stay valid.
   double gain(size_t i) const {
-    const double less_cut = 2 * to_other_[i] - graph_.degrees[i];
-    const double shift = sides_[i] == 0 ? assoc_slope_ : -assoc_slope_;
-    return less_cut * cut_slope_ - shift * graph_.degrees[i];
+    const size_t from = sides_[i];
+    const double less_between = 2 * to_other_[i] - graph_.degrees[i];
+    return (less_between + outside_weight(i)) * cut_slope_[from] +
+           (less_between - outside_weight(i)) * cut_slope_[1 - from] -
+           degree(i) * (assoc_slope_[from] - assoc_slope_[1 - from]);
   }
 
   void push(size_t i) {
     key_[i] = gain(i);
-    queue_.push({key_[i], i});
+    queue_.push_back({key_[i], i});
+    std::push_heap(queue_.begin(), queue_.end());
+  }
+
+  Entry pop() {
+    std::pop_heap(queue_.begin(), queue_.end());
+    const Entry top = queue_.back();
+    queue_.pop_back();
+    return top;
   }
 
   void move(size_t i) {
     const size_t from = sides_[i];
-    cut_ += graph_.degrees[i] - 2 * to_other_[i];
-    assoc_[from] -= graph_.degrees[i];
-    assoc_[1 - from] += graph_.degrees[i];
+    const double less_between = 2 * to_other_[i] - graph_.degrees[i];
+    cut_[from] -= less_between + outside_weight(i);
+    cut_[1 - from] -= less_between - outside_weight(i);
+    assoc_[from] -= degree(i);
+    assoc_[1 - from] += degree(i);
     --count_[from];
     ++count_[1 - from];
     to_other_[i] = graph_.degrees[i] - to_other_[i];
@@ -81,34 +110,37 @@ class Refinement {
   }
 
   void start_pass() {
-    cut_slope_ = 1 / assoc_[0] + 1 / assoc_[1];
-    assoc_slope_ = cut_ * (1 / (assoc_[0] * assoc_[0]) - 1 / (assoc_[1] * assoc_[1]));
-    queue_ = {};
-    for (size_t i = 0; i < sides_.size(); ++i)
-      if (to_other_[i] > 0) push(i);
+    for (size_t side = 0; side < 2; ++side) {
+      cut_slope_[side] = assoc_[side] > 0 ? 1 / assoc_[side] : 0;
+      assoc_slope_[side] = cut_[side] * cut_slope_[side] * cut_slope_[side];
+    }
+    queue_.clear();
+    for (size_t i = 0; i < sides_.size(); ++i) {
+      if (to_other_[i] <= 0) continue;
+      key_[i] = gain(i);
+      queue_.push_back({key_[i], i});
+    }
+    std::make_heap(queue_.begin(), queue_.end());
   }
 
   // Moves nodes, best first, and goes back to the best state on the way. False if that is the
   // first.
   bool run_pass() {
     start_pass();
-    const double before = ncut();
-    double best = before;
+    double best = objective(cut_, assoc_);
     std::vector<size_t> moves;
     size_t kept = 0;
     while (!queue_.empty() && moves.size() - kept < kMaxStall) {
-      const Entry entry = queue_.top();
-      queue_.pop();
-      const size_t i = entry.node;
-      if (locked_[i] != 0 || entry.gain != key_[i] || count_[sides_[i]] == 1) continue;
+      const auto [gain, i] = pop();
+      if (locked_[i] != 0 || gain != key_[i] || count_[sides_[i]] == 1) continue;
       move(i);
       locked_[i] = 1;
       moves.push_back(i);
       for_each_neighbor(i, [&](size_t j, double) {
         if (locked_[j] == 0) push(j);
       });
-      if (ncut() < best * (1 - kMinGain)) {
-        best = ncut();
+      if (objective(cut_, assoc_) < best * (1 - kMinGain)) {
+        best = objective(cut_, assoc_);
         kept = moves.size();
       }
     }
@@ -119,26 +151,30 @@ class Refinement {
 
   const CsrGraph& graph_;
   Sides& sides_;
-  double cut_ = 0;
+  const std::vector<double>& outside_;
+  std::array<double, 2> cut_ = {0, 0};
   std::array<double, 2> assoc_ = {0, 0};
   std::array<size_t, 2> count_ = {0, 0};
-  double cut_slope_ = 0;
-  double assoc_slope_ = 0;
-  std::vector<double> to_other_;  // weight from the node to the other side
-  std::vector<double> key_;       // gain under which the node was queued last
+  std::array<double, 2> cut_slope_ = {0, 0};    // d objective / d cut of a side
+  std::array<double, 2> assoc_slope_ = {0, 0};  // -d objective / d assoc of a side
+  std::vector<double> to_other_;                // weight from the node to the other side
+  std::vector<double> key_;                     // gain under which the node was queued last
   std::vector<uint8_t> locked_;
-  std::priority_queue<Entry> queue_;
+  std::vector<Entry> queue_;  // heap
 };
 
 }  // namespace
 
-void refine_cut(const CsrGraph& graph, Sides& sides) {
-  if (sides.size() < 3) return;
+double refine_cut(const CsrGraph& graph, Sides& sides, const std::vector<double>& outside) {
+  if (sides.size() < 3) return 0;
   const Sides given = sides;
-  const double before = measure_cut(graph, given).ncut();
-  Refinement(graph, sides).run();
+  const double before = measure(graph, given, outside);
+  Refinement(graph, sides, outside).run();
   // The running totals carry rounding; the verdict is on sums made anew.
-  if (measure_cut(graph, sides).ncut() >= before) sides = given;
+  const double gain = before - measure(graph, sides, outside);
+  if (gain > kMinGain * before) return gain;
+  sides = given;
+  return 0;
 }
 
 }  // namespace hmt::graph
