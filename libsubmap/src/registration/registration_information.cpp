@@ -103,8 +103,8 @@ Matrix6d with_shared_error(const Matrix6d& information, double range_m) {
   const Matrix6d limited =
       eigen.eigenvectors() * kept.asDiagonal() * eigen.eigenvectors().transpose();
   const Vector6d inverse = shared.cwiseInverse();
-  // Rounding must not leave it unsymmetric.
-  return inverse.asDiagonal() * ((limited + limited.transpose()) / 2) * inverse.asDiagonal();
+  const Matrix6d rounded = inverse.asDiagonal() * limited * inverse.asDiagonal();
+  return (rounded + rounded.transpose()) / 2;
 }
 
 Matrix6d in_space(Space space, Matrix6d information) {
