@@ -170,7 +170,9 @@ graph::PoseGraph submap_graph(Space space, std::span<const Pose> T_world_submap,
     // Directions that the plane does not have are zero; one keeps the inverse finite and is not
     // used.
     if (space == Space::se2) covariance.diagonal().segment<3>(2).setOnes();
-    graph.edges.push_back({link.a, link.b, link.T_a_b, covariance.inverse()});
+    const Matrix6d information = covariance.inverse();
+    graph.edges.push_back(
+        {link.a, link.b, link.T_a_b, (information + information.transpose()) / 2});
   }
   if (!graph.poses.empty()) graph.fixed = {0};
   return graph;
