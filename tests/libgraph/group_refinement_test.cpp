@@ -44,12 +44,17 @@ TEST(RefineGroups, MergesTwoGroupsAndCutsAThird) {
               ElementsAre(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3));
 }
 
+// One clique in two groups and, out of its reach, two joined cliques in one group of 8 nodes.
 TEST(RefineGroups, DoesNotCutGroupsBelowTheMinimumSize) {
-  const WeightedGraph graph = row_of_cliques(4, 4);
-  const Labels labels = {0, 0, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3};
-  const Labels refined = refine_groups(graph, labels, 13);
-  EXPECT_EQ(count_groups(refined), 4);
-  EXPECT_GT(kway_ncut(graph, refined), 1.2 * kway_ncut(graph, refine_groups(graph, labels)));
+  std::vector<Arc> arcs = row_of_cliques(3, 4).arcs();
+  std::erase_if(arcs, [](const Arc& arc) { return arc.a == 3 && arc.b == 4; });
+  const WeightedGraph graph(12, arcs);
+  const Labels given = {0, 0, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2};
+  const Labels cut = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2};
+  EXPECT_EQ(refine_groups(graph, given, 8), cut);
+  const Labels kept = refine_groups(graph, given, 9);
+  EXPECT_EQ(kept[4], kept[11]);
+  EXPECT_EQ(count_groups(kept), 3);
 }
 
 // A chain 0-1-2-...-31 with groups of 9, 8, 8 and 7: the surplus has to pass through two groups.
