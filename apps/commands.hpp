@@ -10,6 +10,7 @@ namespace hmt::apps {
 Action add_map(CLI::App& command);
 Action add_export(CLI::App& command);
 Action add_evaluate(CLI::App& command);
+Action add_optimize(CLI::App& command);
 Action add_partition(CLI::App& command);
 Action add_compare(CLI::App& command);
 Action add_simulate(CLI::App& command);

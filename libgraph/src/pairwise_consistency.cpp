@@ -95,7 +95,7 @@ std::vector<bool> consistent_set(const PoseGraph& trajectory, std::span<const Po
 
 std::vector<bool> pairwise_consistent_set(const PoseGraph& trajectory,
                                           std::span<const PoseGraphEdge> loops, double confidence) {
-  check_edges(loops, trajectory.poses.size());
+  check_edges(loops, trajectory.space, trajectory.poses.size());
   return with_chart(trajectory.space, [&](auto chart) {
     return consistent_set<decltype(chart)>(trajectory, loops, confidence);
   });

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "hmt/graph/pose_graph.hpp"
 
@@ -103,6 +106,20 @@ typename Chart::Vector chart_vector(const Vector6d& vector);
 
 extern template class EdgeFactor<PlanarChart>;
 extern template class EdgeFactor<SpatialChart>;
+
+/// Whether a symmetric matrix is positive definite, by its Cholesky factor.
+template <class Matrix>
+bool is_definite(const Matrix& matrix) {
+  return Eigen::LLT<Matrix>(matrix).info() == Eigen::Success;
+}
+
+/// Whether no eigenvalue is negative beyond rounding: 1e-9 of the largest.
+template <class Matrix>
+bool is_semidefinite(const Matrix& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix, Eigen::EigenvaluesOnly);
+  const auto& values = eigen.eigenvalues();
+  return values[0] >= -1e-9 * std::max(0.0, values[values.size() - 1]);
+}
 
 /// Calls `function` with the chart of the space, as `function(PlanarChart{})`.
 template <class Function>

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The hmtmap authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <numeric>
 #include <string>
 
@@ -16,17 +14,13 @@ bool is_finite(const Pose& pose) {
          pose.rotation.squaredNorm() > 0.25;
 }
 
-/// A computed zero eigenvalue lies within this share of the largest one.
-constexpr double kEigenvalueRounding = 1e-9;
-
-bool is_semidefinite(const Matrix6d& information) {
-  if (Eigen::LLT<Matrix6d>(information).info() == Eigen::Success) return true;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information, Eigen::EigenvaluesOnly);
-  const auto& values = eigen.eigenvalues();
-  return values(0) >= -kEigenvalueRounding * std::max(0.0, values(5));
+template <class Chart>
+bool has_valid_information(const PoseGraphEdge& edge) {
+  const auto block = chart_block<Chart>(edge.information);
+  return is_definite(block) || is_semidefinite(block);
 }
 
-void check_edge(const PoseGraphEdge& edge, size_t index, size_t num_poses) {
+void check_edge(const PoseGraphEdge& edge, size_t index, Space space, size_t num_poses) {
   const std::string name = "pose graph edge " + std::to_string(index) + " (" +
                            std::to_string(edge.from) + " -> " + std::to_string(edge.to) + "): ";
   for (const int node : {edge.from, edge.to})
@@ -39,7 +33,8 @@ void check_edge(const PoseGraphEdge& edge, size_t index, size_t num_poses) {
     throw InputError(name + "the information matrix is not finite");
   if (!edge.information.isApprox(edge.information.transpose(), 1e-9))
     throw InputError(name + "the information matrix is not symmetric");
-  if (!is_semidefinite(edge.information))
+  if (!(space == Space::se2 ? has_valid_information<PlanarChart>(edge)
+                            : has_valid_information<SpatialChart>(edge)))
     throw InputError(name +
                      "the information matrix has a negative eigenvalue; correct it or take the "
                      "nearest positive semidefinite one");
@@ -64,11 +59,11 @@ void check_pose_graph(const PoseGraph& graph) {
     if (node < 0 || static_cast<size_t>(node) >= graph.poses.size())
       throw InputError("fixed node " + std::to_string(node) + " is outside the graph of " +
                        std::to_string(graph.poses.size()) + " poses");
-  check_edges(graph.edges, graph.poses.size());
+  check_edges(graph.edges, graph.space, graph.poses.size());
 }
 
-void check_edges(std::span<const PoseGraphEdge> edges, size_t num_poses) {
-  for (size_t k = 0; k < edges.size(); ++k) check_edge(edges[k], k, num_poses);
+void check_edges(std::span<const PoseGraphEdge> edges, Space space, size_t num_poses) {
+  for (size_t k = 0; k < edges.size(); ++k) check_edge(edges[k], k, space, num_poses);
 }
 
 std::vector<int> connected_components(const PoseGraph& graph) {

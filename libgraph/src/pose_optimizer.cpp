@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hmt/graph/pose_optimizer.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -10,17 +15,23 @@
 #include "hmt/graph/input_error.hpp"
 #include "pose_problem.hpp"
 #include "robust_weights.hpp"
-#include "spanning_tree.hpp"
+#include "start_poses.hpp"
 
 namespace hmt::graph {
 namespace {
 
+void check_at_least(const char* name, int value, int least) {
+  if (value < least)
+    throw InputError(std::string(name) + " is " + std::to_string(value) + "; it must be at least " +
+                     std::to_string(least));
+}
+
 void check_options(const PoseGraph& graph, const PoseOptimizerOptions& options) {
-  if (options.max_iterations < 1)
-    throw InputError("max_iterations is " + std::to_string(options.max_iterations) +
-                     "; it must be at least 1");
-  if (options.threads < 1)
-    throw InputError("threads is " + std::to_string(options.threads) + "; it must be at least 1");
+  check_at_least("max_iterations", options.max_iterations, 1);
+  check_at_least("restarts", options.restarts, 0);
+  check_at_least("threads", options.threads, 1);
+  if (options.initialization == Initialization::random_tree)
+    throw InputError("initialization random_tree is for restarts only");
   if (!options.trusted.empty() && options.trusted.size() != graph.edges.size())
     throw InputError("trusted has " + std::to_string(options.trusted.size()) +
                      " flags for a graph of " + std::to_string(graph.edges.size()) +
@@ -39,46 +50,95 @@ std::vector<bool> trusted_edges(const PoseGraph& graph, const PoseOptimizerOptio
   return trusted;
 }
 
-/// Moves the problem to the start of least chi2.
 template <class Chart>
-Initialization take_best_start(const PoseGraph& graph, PoseProblem<Chart>& problem) {
-  const double chi2_given = sum(problem.edge_chi2());
-  problem.set_poses(spanning_tree_poses(graph));
-  if (sum(problem.edge_chi2()) < chi2_given) return Initialization::best;
-  problem.set_poses(graph.poses);
-  return Initialization::given;
+SolveReport solve(const PoseGraph& graph, const PoseOptimizerOptions& options,
+                  PoseProblem<Chart>& problem) {
+  if (options.robust == RobustMethod::gnc)
+    return solve_gnc(problem, trusted_edges(graph, options), options.max_iterations);
+  const double huber_chi2 =
+      options.robust == RobustMethod::huber ? chi_squared_quantile(Chart::kTangent, 0.95) : 0.0;
+  const std::vector<double> ones(graph.edges.size(), 1.0);
+  return problem.solve(ones, huber_chi2, options.max_iterations);
+}
+
+/// Where one start led.
+struct Solution {
+  SolveReport solved;
+  std::vector<Pose> poses;
+  std::vector<double> edge_chi2;
+};
+
+template <class Chart>
+Solution solve_from(const Start& start, const PoseGraph& graph, const PoseOptimizerOptions& options,
+                    PoseProblem<Chart> problem) {
+  problem.set_poses(start.poses);
+  Solution solution;
+  solution.solved = solve(graph, options, problem);
+  solution.poses = problem.poses();
+  solution.edge_chi2 = problem.edge_chi2();
+  if (solution.solved.inlier.empty()) solution.solved.inlier.assign(graph.edges.size(), true);
+  return solution;
+}
+
+/// The solution of least cost among those that the solver did not give up; the first of equals.
+size_t best_of(const std::vector<Solution>& solutions) {
+  const auto failed = [](const Solution& s) {
+    return s.solved.termination == Termination::failed || !std::isfinite(s.solved.cost);
+  };
+  size_t best = 0;
+  for (size_t k = 1; k < solutions.size(); ++k)
+    if (!failed(solutions[k]) &&
+        (failed(solutions[best]) || solutions[k].solved.cost < solutions[best].solved.cost))
+      best = k;
+  return best;
+}
+
+/// Measured numbers of the inliers less the free numbers of the poses.
+template <class Chart>
+double degrees_of_freedom(const PoseGraph& graph, const std::vector<bool>& inlier) {
+  const std::vector<bool> held = held_nodes(graph);
+  const auto edges = std::count(inlier.begin(), inlier.end(), true);
+  const auto free_nodes = std::count(held.begin(), held.end(), false);
+  return static_cast<double>(Chart::kTangent * (edges - free_nodes));
 }
 
 template <class Chart>
-SolveReport solve(const PoseGraph& graph, const PoseOptimizerOptions& options,
-                  PoseProblem<Chart>& problem, std::vector<bool>& inlier) {
-  const std::vector<double> ones(graph.edges.size(), 1.0);
-  inlier.assign(graph.edges.size(), true);
-  if (options.robust == RobustMethod::gnc)
-    return solve_gnc(problem, trusted_edges(graph, options), options.max_iterations, inlier);
-  const double huber_chi2 =
-      options.robust == RobustMethod::huber ? chi_squared_quantile(Chart::kTangent, 0.95) : 0.0;
-  return problem.solve(ones, huber_chi2, options.max_iterations);
+PoseOptimizerReport report_of(const PoseGraph& graph, const Solution& solution) {
+  PoseOptimizerReport report;
+  report.termination = solution.solved.termination;
+  report.message = solution.solved.message;
+  report.iterations = solution.solved.iterations;
+  report.gradient_norm = solution.solved.gradient_norm;
+  report.cost = solution.solved.cost;
+  report.inlier = solution.solved.inlier;
+  report.edge_chi2 = solution.edge_chi2;
+  for (size_t k = 0; k < report.edge_chi2.size(); ++k)
+    if (report.inlier[k]) report.chi2 += report.edge_chi2[k];
+  report.degrees_of_freedom = degrees_of_freedom<Chart>(graph, report.inlier);
+  return report;
 }
 
 template <class Chart>
 PoseOptimizerResult optimize_in(Chart, const PoseGraph& graph,
                                 const PoseOptimizerOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  PoseProblem<Chart> problem(graph);
-  PoseOptimizerReport report;
+  const PoseProblem<Chart> problem(graph);
+  const std::vector<Start> starts = choose_starts(graph, options.initialization, options.restarts);
+  std::vector<Solution> solutions(starts.size());
+  tbb::task_arena(options.threads).execute([&] {
+    tbb::parallel_for(size_t{0}, starts.size(), [&](size_t k) {
+      solutions[k] = solve_from(starts[k], graph, options, problem);
+    });
+  });
+  const size_t best = best_of(solutions);
+  PoseOptimizerReport report = report_of<Chart>(graph, solutions[best]);
   report.chi2_initial = sum(problem.edge_chi2());
-  if (options.initialization == Initialization::best)
-    report.start = take_best_start(graph, problem);
-  const SolveReport solved = solve(graph, options, problem, report.inlier);
-  report.termination = solved.termination;
-  report.message = solved.message;
-  report.iterations = solved.iterations;
-  report.edge_chi2 = problem.edge_chi2();
-  for (size_t k = 0; k < report.edge_chi2.size(); ++k)
-    if (report.inlier[k]) report.chi2 += report.edge_chi2[k];
+  report.start = starts[best].kind;
+  for (size_t k = 0; k < starts.size(); ++k)
+    report.starts.push_back({starts[k].kind, starts[k].chi2, solutions[k].solved.cost,
+                             solutions[k].solved.termination});
   report.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return {problem.poses(), report};
+  return {std::move(solutions[best].poses), std::move(report)};
 }
 
 }  // namespace

@@ -116,9 +116,11 @@ ceres::Problem::Options problem_options() {
 }  // namespace
 
 template <class Chart>
-PoseProblem<Chart>::PoseProblem(const PoseGraph& graph) : graph_(graph), held_(held_nodes(graph)) {
-  factors_.reserve(graph.edges.size());
-  for (const PoseGraphEdge& edge : graph.edges) factors_.emplace_back(edge);
+PoseProblem<Chart>::PoseProblem(const PoseGraph& graph)
+    : graph_(&graph),
+      held_(held_nodes(graph)),
+      factors_(std::make_shared<std::vector<EdgeFactor<Chart>>>(graph.edges.begin(),
+                                                                graph.edges.end())) {
   set_poses(graph.poses);
 }
 
@@ -131,18 +133,19 @@ void PoseProblem<Chart>::set_poses(const std::vector<Pose>& poses) {
 
 template <class Chart>
 std::vector<Pose> PoseProblem<Chart>::poses() const {
-  std::vector<Pose> poses(graph_.poses.size());
+  std::vector<Pose> poses(graph_->poses.size());
   for (size_t node = 0; node < poses.size(); ++node)
     poses[node] =
-        held_[node] ? graph_.poses[node] : Chart::load(parameters(static_cast<int>(node)));
+        held_[node] ? graph_->poses[node] : Chart::load(parameters(static_cast<int>(node)));
   return poses;
 }
 
 template <class Chart>
 std::vector<double> PoseProblem<Chart>::edge_chi2() const {
-  std::vector<double> chi2(factors_.size());
-  for (size_t k = 0; k < factors_.size(); ++k)
-    chi2[k] = factors_[k].chi2(parameters(graph_.edges[k].from), parameters(graph_.edges[k].to));
+  std::vector<double> chi2(factors_->size());
+  for (size_t k = 0; k < factors_->size(); ++k)
+    chi2[k] =
+        (*factors_)[k].chi2(parameters(graph_->edges[k].from), parameters(graph_->edges[k].to));
   return chi2;
 }
 
@@ -156,12 +159,12 @@ SolveReport PoseProblem<Chart>::solve(const std::vector<double>& edge_weights, d
   const auto block = [this](int node) {
     return parameters_.data() + static_cast<size_t>(node) * Chart::kParameters;
   };
-  for (size_t k = 0; k < factors_.size(); ++k) {
-    const PoseGraphEdge& edge = graph_.edges[k];
+  for (size_t k = 0; k < factors_->size(); ++k) {
+    const PoseGraphEdge& edge = graph_->edges[k];
     const bool both_held =
         held_[static_cast<size_t>(edge.from)] && held_[static_cast<size_t>(edge.to)];
     if (edge_weights[k] <= 0 || both_held) continue;
-    costs.emplace_back(factors_[k], edge_weights[k]);
+    costs.emplace_back((*factors_)[k], edge_weights[k]);
     problem.AddResidualBlock(&costs.back(), huber_chi2 > 0 ? &huber : nullptr, block(edge.from),
                              block(edge.to));
   }
@@ -174,8 +177,22 @@ SolveReport PoseProblem<Chart>::solve(const std::vector<double>& edge_weights, d
   }
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(max_iterations), &problem, &summary);
-  return {termination_of(summary.termination_type), summary.message,
-          static_cast<int>(summary.iterations.size()) - 1};
+  SolveReport report;
+  report.termination = termination_of(summary.termination_type);
+  report.message = summary.message;
+  if (summary.iterations.empty()) return report;
+  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  report.gradient_norm = summary.iterations.back().gradient_max_norm;
+  report.cost = 2 * summary.final_cost;
+  return report;
+}
+
+std::vector<double> edge_chi2(const PoseGraph& graph, const std::vector<Pose>& poses) {
+  return with_chart(graph.space, [&](auto chart) {
+    PoseProblem<decltype(chart)> problem(graph);
+    problem.set_poses(poses);
+    return problem.edge_chi2();
+  });
 }
 
 template class PoseProblem<PlanarChart>;

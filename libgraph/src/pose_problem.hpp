@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ namespace hmt::graph {
 void check_pose_graph(const PoseGraph& graph);
 
 /// The same for edges alone, whose nodes must lie in [0, num_poses).
-void check_edges(std::span<const PoseGraphEdge> edges, size_t num_poses);
+void check_edges(std::span<const PoseGraphEdge> edges, Space space, size_t num_poses);
 
 /// Component of each node, numbered by smallest node.
 std::vector<int> connected_components(const PoseGraph& graph);
@@ -27,14 +28,21 @@ std::vector<int> connected_components(const PoseGraph& graph);
 /// component that has none.
 std::vector<bool> held_nodes(const PoseGraph& graph);
 
+/// r^T Omega r of every edge at the given poses of the nodes.
+std::vector<double> edge_chi2(const PoseGraph& graph, const std::vector<Pose>& poses);
+
 /// What one call of the solver did.
 struct SolveReport {
   Termination termination = Termination::nothing_to_do;
   std::string message;
   int iterations = 0;
+  double gradient_norm = 0;
+  std::vector<bool> inlier;  ///< empty: all
+  double cost = 0;           ///< see PoseOptimizerReport
 };
 
-/// A pose graph as the solver sees it: parameters of every pose and a factor for every edge.
+/// A pose graph as the solver sees it: parameters of every pose and a factor for every edge. The
+/// graph must outlive it.
 template <class Chart>
 class PoseProblem {
  public:
@@ -56,9 +64,10 @@ class PoseProblem {
     return parameters_.data() + static_cast<size_t>(node) * Chart::kParameters;
   }
 
-  const PoseGraph& graph_;
+  const PoseGraph* graph_;
   std::vector<bool> held_;
-  std::vector<EdgeFactor<Chart>> factors_;
+  // Shared by the copies of a problem, which differ in their poses alone.
+  std::shared_ptr<const std::vector<EdgeFactor<Chart>>> factors_;
   std::vector<double> parameters_;
 };
 

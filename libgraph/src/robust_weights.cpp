@@ -40,21 +40,26 @@ std::vector<double> weights_at(const std::vector<double>& chi2, const std::vecto
 /// Solves over the inliers until no edge changes sides.
 template <class Chart>
 SolveReport settle(PoseProblem<Chart>& problem, const std::vector<bool>& trusted, double limit,
-                   int max_iterations, std::vector<double> weights, std::vector<bool>& inlier) {
+                   int max_iterations, std::vector<double> weights) {
   SolveReport total;
+  int iterations = 0;
   for (int round = 0; round < kVerdictRounds; ++round) {
-    const SolveReport solved = problem.solve(weights, 0, max_iterations);
-    total = {solved.termination, solved.message, total.iterations + solved.iterations};
+    total = problem.solve(weights, 0, max_iterations);
+    iterations += total.iterations;
     const std::vector<double> chi2 = problem.edge_chi2();
+    total.inlier.assign(chi2.size(), true);
+    total.cost = 0;
     bool changed = false;
     for (size_t k = 0; k < chi2.size(); ++k) {
-      inlier[k] = trusted[k] || chi2[k] <= limit;
-      const double weight = inlier[k] ? 1.0 : 0.0;
+      total.inlier[k] = trusted[k] || chi2[k] <= limit;
+      total.cost += total.inlier[k] ? chi2[k] : limit;
+      const double weight = total.inlier[k] ? 1.0 : 0.0;
       changed = changed || weight != weights[k];
       weights[k] = weight;
     }
     if (!changed) break;
   }
+  total.iterations = iterations;
   return total;
 }
 
@@ -68,7 +73,7 @@ double truncated_weight(double chi2, double limit, double mu) {
 
 template <class Chart>
 SolveReport solve_gnc(PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
-                      int max_iterations, std::vector<bool>& inlier) {
+                      int max_iterations) {
   const double limit = chi_squared_quantile(Chart::kTangent, kInlierProbability);
   std::vector<double> weights(trusted.size(), 1.0);
   int iterations = problem.solve(weights, 0, max_iterations).iterations;
@@ -82,14 +87,12 @@ SolveReport solve_gnc(PoseProblem<Chart>& problem, const std::vector<bool>& trus
       chi2 = problem.edge_chi2();
     }
   }
-  SolveReport report = settle(problem, trusted, limit, max_iterations, weights, inlier);
+  SolveReport report = settle(problem, trusted, limit, max_iterations, weights);
   report.iterations += iterations;
   return report;
 }
 
-template SolveReport solve_gnc(PoseProblem<PlanarChart>&, const std::vector<bool>&, int,
-                               std::vector<bool>&);
-template SolveReport solve_gnc(PoseProblem<SpatialChart>&, const std::vector<bool>&, int,
-                               std::vector<bool>&);
+template SolveReport solve_gnc(PoseProblem<PlanarChart>&, const std::vector<bool>&, int);
+template SolveReport solve_gnc(PoseProblem<SpatialChart>&, const std::vector<bool>&, int);
 
 }  // namespace hmt::graph

@@ -15,9 +15,9 @@ double truncated_weight(double chi2, double limit, double mu);
 
 /// Minimizes the sum of min(chi2, limit) over the edges that are not trusted plus chi2 over those
 /// that are, by graduated non-convexity [Yang 2020, Sec. V] from the present poses. `limit` is the
-/// 99.9 % quantile of chi2, so one true edge in a thousand is lost. `inlier` becomes the verdict.
+/// 99.9 % quantile of chi2, so one true edge in a thousand is lost.
 template <class Chart>
 SolveReport solve_gnc(PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
-                      int max_iterations, std::vector<bool>& inlier);
+                      int max_iterations);
 
 }  // namespace hmt::graph

@@ -8,8 +8,12 @@
 
 namespace hmt::graph {
 
-/// Poses chained along a breadth-first tree over the edges `use` (empty: every edge), from all held
-/// nodes at once; edges in index order. Nodes that the tree does not reach keep their pose.
-std::vector<Pose> spanning_tree_poses(const PoseGraph& graph, const std::vector<bool>& use = {});
+/// Poses chained along a breadth-first tree from the nodes that are `placed`; edges in index order.
+/// A component without a placed node grows from the node that its gauge holds.
+std::vector<Pose> spanning_tree_poses(const PoseGraph& graph, const std::vector<bool>& placed);
+
+/// The same along a tree that grows by nodes in random order (neither breadth nor depth first), the
+/// same one for the same seed; from the held nodes.
+std::vector<Pose> random_tree_poses(const PoseGraph& graph, unsigned seed);
 
 }  // namespace hmt::graph

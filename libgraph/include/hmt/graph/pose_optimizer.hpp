@@ -18,8 +18,11 @@ enum class RobustMethod {
 
 /// Where the optimization starts.
 enum class Initialization {
-  given,  ///< the poses of the graph
-  best    ///< the one of least chi2 of: the poses of the graph, chordal relaxation, spanning tree
+  given,          ///< the poses of the graph
+  chordal,        ///< chordal relaxation of the rotations, then translations [Carlone 2015]
+  spanning_tree,  ///< edges chained along a breadth-first tree from the gauge
+  best,           ///< the one of least chi2 among these three
+  random_tree     ///< edges chained along a random spanning tree; only for restarts
 };
 
 struct PoseOptimizerOptions {
@@ -30,10 +33,22 @@ struct PoseOptimizerOptions {
   /// With gnc: edges that are never doubted (odometry), one flag an edge; empty: edges between i
   /// and i+1.
   std::vector<bool> trusted;
+  /// Further starts, >= 0: the other ones of Initialization, then random spanning trees. Each is
+  /// solved and the least cost is kept.
+  int restarts = 0;
+  /// Starts that are solved at the same time, >= 1; a single solve runs on one.
   int threads = 1;
 };
 
 enum class Termination { converged, iteration_limit, nothing_to_do, failed };
+
+/// One start and where it led.
+struct StartReport {
+  Initialization start = Initialization::given;
+  double chi2_start = 0;  ///< over all edges
+  double cost = 0;        ///< of the result, see PoseOptimizerReport
+  Termination termination = Termination::nothing_to_do;
+};
 
 struct PoseOptimizerReport {
   Termination termination = Termination::nothing_to_do;
@@ -41,7 +56,17 @@ struct PoseOptimizerReport {
   int iterations = 0;
   double chi2_initial = 0;  ///< sum of r^T Omega r over all edges at the given poses, no 1/2
   double chi2 = 0;          ///< the same at the result; with gnc, over the inliers
-  double solve_s = 0;
+  /// What was minimized: the sum over edges of r^T Omega r, of its Huber loss, or of its
+  /// truncation.
+  double cost = 0;
+  /// Largest component of the gradient of cost / 2 at the result, in the scale of the solver's
+  /// parameters (metres, radians).
+  double gradient_norm = 0;
+  /// Expectation of chi2 if the information is right: measured numbers of the inliers less free
+  /// numbers of the poses.
+  double degrees_of_freedom = 0;
+  double solve_s = 0;  ///< initialization and optimization
+  std::vector<StartReport> starts;
   Initialization start = Initialization::given;  ///< the start that was taken
   std::vector<double> edge_chi2;                 ///< r^T Omega r of every edge at the result
   std::vector<bool> inlier;                      ///< verdict on every edge; all true without gnc

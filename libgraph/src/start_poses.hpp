@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "hmt/graph/pose_optimizer.hpp"
+
+namespace hmt::graph {
+
+/// One start of the optimization.
+struct Start {
+  Initialization kind = Initialization::given;
+  std::vector<Pose> poses;
+  double chi2 = 0;  ///< over all edges
+};
+
+/// The start that is asked for (`best`: the one of least chi2), then `restarts` further ones. A
+/// chordal relaxation that does not exist gives way to the poses of the graph.
+std::vector<Start> choose_starts(const PoseGraph& graph, Initialization wanted, int restarts);
+
+}  // namespace hmt::graph
