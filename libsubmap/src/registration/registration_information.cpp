@@ -14,6 +14,10 @@ namespace {
 // from the straight.
 constexpr double kInlierDeviations = 3;
 constexpr double kInlierDistance_m = 0.05;
+// A direction counts as measured by what the normals show beyond so many of their own standard
+// deviations: errors that two scans share from the same laser (steps of range, beams at the same
+// bearings) look like structure that moves along with the robot.
+constexpr double kChanceDeviations = 2;
 // Ranges come in steps of a centimetre from common lasers: uniform error of 2.9 mm that all beams
 // on a wall may share, so no number of beams takes it away.
 constexpr double kSharedError_m = 0.003;
@@ -40,7 +44,7 @@ Matrix6d unbiased_outer(const Match& match, const Eigen::Vector3d& p_source, Spa
   motion.leftCols<3>().setIdentity();
   const Eigen::Vector3d& p = p_source;
   motion.rightCols<3>() << 0, p.z(), -p.y(), -p.z(), 0, p.x(), p.y(), -p.x(), 0;
-  const double v = std::min(match.normal_variance, 0.1);
+  const double v = std::min(kChanceDeviations * kChanceDeviations * match.normal_variance, 0.2);
   return match.jacobian * match.jacobian.transpose() - v * motion.transpose() * along * motion;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The hmtmap authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -79,6 +80,30 @@ LocalFit best_line(const std::vector<Eigen::Vector3d>& points, const Window& win
   return left_smooth ? left : right;
 }
 
+// How much more the directions of fits scatter than independent noise of the points explains:
+// ranges come in steps, and walls have texture, both of which neighbors share. From the angle
+// between the lines to the left and to the right of a point, as median over the scan of its square
+// over the expected one; at least 1.
+double direction_excess(const std::vector<Eigen::Vector3d>& points,
+                        const std::vector<Window>& windows, double noise_m) {
+  constexpr size_t kStride = 3;
+  constexpr double kMedianOfChi2 = 0.4549;  // one degree of freedom
+  std::vector<double> ratios;
+  for (size_t i = 0; i < points.size(); i += kStride) {
+    const LocalFit left = fit_line(points, windows[i].first, i, i);
+    const LocalFit right = fit_line(points, i, windows[i].last, i);
+    if (!is_smooth(left, kLineParameters, noise_m) || !is_smooth(right, kLineParameters, noise_m))
+      continue;
+    const double sine = left.normal.cross(right.normal).norm();
+    const double variance = noise_m * noise_m * (1 / left.spread2 + 1 / right.spread2);
+    ratios.push_back(sine * sine / variance);
+  }
+  if (ratios.empty()) return 1;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return std::max(1.0, std::sqrt(*middle / kMedianOfChi2));
+}
+
 }  // namespace
 
 std::vector<PointNormal> scan_normals(const std::vector<Eigen::Vector3d>& points_sensor,
@@ -94,6 +119,7 @@ std::vector<PointNormal> scan_normals(const std::vector<Eigen::Vector3d>& points
     fits[i] = fit_line(points_sensor, windows[i].first, windows[i].last, i);
   }
   const double noise_m = median_noise_m(fits, kLineParameters);
+  const double excess = direction_excess(points_sensor, windows, noise_m);
   std::vector<PointNormal> normals(n);
   for (size_t i = 0; i < n; ++i) {
     const LocalFit fit = best_line(points_sensor, windows[i], fits[i], i, noise_m);
@@ -101,6 +127,7 @@ std::vector<PointNormal> scan_normals(const std::vector<Eigen::Vector3d>& points
       normals[i] = normal_from_fit(fit, kLineParameters, noise_m, points_sensor[i]);
     else
       normals[i].sigma_m = noise_m;
+    normals[i].normal_sigma_rad *= excess;
     normals[i].spacing_m = windows[i].spacing_m;
   }
   return normals;
