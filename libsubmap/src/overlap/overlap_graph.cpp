@@ -1,195 +1,276 @@
 // SPDX-FileCopyrightText: 2026 The hmtmap authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
 
 #include "cell_index.hpp"
 #include "common_share.hpp"
 #include "count_matches.hpp"
 #include "hmt/submap/overlap/overlap.hpp"
-#include "sensed_points.hpp"
+#include "keyframe_points.hpp"
 
 namespace hmt::submap {
 namespace {
 
-/// A block of consecutive keyframes is prepared at a time, so that memory does not grow with the
-/// points of the log.
-constexpr int kBlockSize = 256;
+size_t at(int i) {
+  return static_cast<size_t>(i);
+}
+
+// Two blocks of consecutive keyframes are held at a time, so that memory does not grow with the
+// points of the log: some 100 MB by these limits. Larger blocks would prepare keyframes less often.
+constexpr int kBlockKeyframes = 2048;
+constexpr int64_t kBlockPoints = 1'000'000;
 
 struct Block {
   int begin = 0;
   int end = 0;
+
   int size() const { return end - begin; }
 };
 
-/// The readings of one keyframe, one slot for each sensor of the log; no points where there is no
-/// reading.
-struct PreparedKeyframe {
-  std::vector<SensedPoints> points;
-  std::vector<bool> present;
-};
+/// Upper bounds of the matches of one keyframe, for each sensor.
+using KeyframeBounds = std::vector<std::vector<CellIndex::Bound>>;
+using BlockPoints = std::vector<KeyframePoints>;
 
+/// Two keyframes that may overlap, a < b.
 struct Pair {
   int a = 0;
   int b = 0;
-  double overlap = 0;
+};
+
+/// Points of a that match one of b and of b that match one of a, for one sensor.
+struct Matches {
+  int of_a = 0;
+  int of_b = 0;
 };
 
 class OverlapGraphBuilder {
  public:
-  OverlapGraphBuilder(std::span<const Keyframe> keyframes, std::span<const Pose> T_world_keyframe,
-                      const PairCovariance& covariance, const ObservationStore& observations,
+  OverlapGraphBuilder(const KeyframePointSource& source, const PairCovariance& covariance,
                       const OverlapOptions& options, const Run& run)
-      : keyframes_(keyframes),
-        T_world_keyframe_(T_world_keyframe),
+      : source_(source),
         covariance_(covariance),
-        observations_(observations),
         options_(options),
         run_(run),
         arena_(std::max(1, run.threads)) {}
 
   graph::WeightedGraph build() {
+    find_sensors();
     index_cells();
     std::vector<graph::Arc> arcs;
-    const int n = static_cast<int>(keyframes_.size());
-    for (int begin = 0; begin < n; begin += kBlockSize) {
-      add_arcs({begin, std::min(n, begin + kBlockSize)}, arcs);
-      run_.report({"overlap", static_cast<double>(std::min(n, begin + kBlockSize)),
-                   static_cast<double>(n)});
+    const std::vector<Block> all = blocks();
+    for (const Block& a : all) {
+      const BlockPoints points_a = prepare(a);
+      const std::vector<KeyframeBounds> bounds_a = bounds(a);
+      for (const Block& b : all) {
+        if (b.begin < a.begin || !meet(bounds_a, b)) continue;
+        const std::vector<Pair> pairs = candidates(a, bounds_a, b);
+        if (pairs.empty()) continue;
+        add_arcs(pairs, a, points_a, b, b.begin == a.begin ? points_a : prepare(b), arcs);
+      }
+      run_.report({"overlap", static_cast<double>(a.end), static_cast<double>(num_keyframes())});
     }
-    return {n, arcs};
+    return {num_keyframes(), arcs};
   }
 
  private:
-  Pose T_frame_keyframe(int keyframe) const {
-    // Points are held as floats, so they are taken relative to the first keyframe.
-    Pose T = T_world_keyframe_[static_cast<size_t>(keyframe)];
-    T.translation -= T_world_keyframe_.front().translation;
-    return T;
-  }
+  int num_keyframes() const { return source_.num_keyframes(); }
 
-  void find_sensors() {
-    std::set<int> sensors;
-    for (const Keyframe& keyframe : keyframes_) {
-      for (const Reading& r : observations_.load(keyframe.observation)->readings) {
-        sensors.insert(r.sensor);
+  std::vector<Block> blocks() const {
+    std::vector<Block> blocks;
+    int64_t points = 0;
+    for (int keyframe = 0; keyframe < num_keyframes(); ++keyframe) {
+      int64_t own = 0;
+      for (const CellIndex& index : index_) own += index.num_points(keyframe);
+      points += own;
+      if (blocks.empty() || blocks.back().size() == kBlockKeyframes || points > kBlockPoints) {
+        blocks.push_back({keyframe, keyframe});
+        points = own;
       }
+      blocks.back().end = keyframe + 1;
     }
-    sensors_.assign(sensors.begin(), sensors.end());
+    return blocks;
   }
 
+  /// Calls function(0) to function(count - 1); each writes its own slot.
   template <typename Function>
   void parallel(int count, const Function& function) {
     if (run_.stop_requested()) throw Interrupted{};
     arena_.execute([&] { tbb::parallel_for(0, count, function); });
   }
 
-  PreparedKeyframe prepare(int keyframe) const {
-    const auto observation =
-        observations_.load(keyframes_[static_cast<size_t>(keyframe)].observation);
-    PreparedKeyframe prepared{std::vector<SensedPoints>(sensors_.size()),
-                              std::vector<bool>(sensors_.size(), false)};
-    for (const Reading& reading : observation->readings) {
-      const auto slot = static_cast<size_t>(
-          std::lower_bound(sensors_.begin(), sensors_.end(), reading.sensor) - sensors_.begin());
-      if (prepared.present[slot]) continue;
-      prepared.present[slot] = true;
-      prepared.points[slot] =
-          SensedPoints(reading, T_frame_keyframe(keyframe), options_.max_mahalanobis);
-    }
-    return prepared;
-  }
-
-  std::vector<PreparedKeyframe> prepare(const Block& block) {
-    std::vector<PreparedKeyframe> prepared(static_cast<size_t>(block.size()));
-    parallel(block.size(),
-             [&](int i) { prepared[static_cast<size_t>(i)] = prepare(block.begin + i); });
-    return prepared;
+  void find_sensors() {
+    std::vector<std::vector<int>> found(at(num_keyframes()));
+    parallel(num_keyframes(), [&](int i) { found[at(i)] = source_.sensors(i); });
+    for (const auto& sensors : found)
+      sensors_.insert(sensors_.end(), sensors.begin(), sensors.end());
+    std::sort(sensors_.begin(), sensors_.end());
+    sensors_.erase(std::unique(sensors_.begin(), sensors_.end()), sensors_.end());
   }
 
   void index_cells() {
-    find_sensors();
-    const size_t n = keyframes_.size();
-    std::vector<std::vector<std::vector<CellCount>>> cells(sensors_.size(),
-                                                           std::vector<std::vector<CellCount>>(n));
-    parallel(static_cast<int>(n), [&](int i) {
-      const PreparedKeyframe prepared = prepare(i);
+    std::vector<std::vector<std::vector<CellCount>>> cells(
+        sensors_.size(), std::vector<std::vector<CellCount>>(at(num_keyframes())));
+    // Not std::vector<bool>, whose elements cannot be written by several threads.
+    has_reading_.assign(sensors_.size(), std::vector<char>(at(num_keyframes()), 0));
+    parallel(num_keyframes(), [&](int i) {
+      const KeyframePoints points = source_.points(i, sensors_);
       for (size_t s = 0; s < sensors_.size(); ++s) {
-        cells[s][static_cast<size_t>(i)] = count_cells(prepared.points[s]);
+        if (!points[s]) continue;
+        has_reading_[s][at(i)] = 1;
+        cells[s][at(i)] = count_cells(*points[s]);
       }
     });
     const double pose_gate = options_.max_mahalanobis * options_.max_pose_deviation_m;
-    for (auto& sensor_cells : cells)
-      index_.emplace_back(std::move(sensor_cells), pose_gate * pose_gate);
+    for (auto& readings : cells) index_.emplace_back(std::move(readings), pose_gate * pose_gate);
   }
 
-  std::vector<Pair> candidates(const Block& a, const Block& b) {
-    std::vector<Pair> pairs;
-    for (int i = a.begin; i < a.end; ++i) {
-      std::set<int> others;
-      for (const CellIndex& index : index_) {
-        for (const CellIndex::Bound& bound : index.bounds(i)) {
-          for (int j = std::max({bound.begin, b.begin, i + 1}); j < std::min(bound.end, b.end);
-               ++j) {
-            others.insert(j);
-          }
+  BlockPoints prepare(const Block& block) {
+    BlockPoints points(at(block.size()));
+    parallel(block.size(),
+             [&](int i) { points[at(i)] = source_.points(block.begin + i, sensors_); });
+    return points;
+  }
+
+  /// Mean over the common sensors of the overlap with the matches that matches(s) returns.
+  template <typename MatchesOfSensor>
+  double mean_overlap(const Pair& pair, const MatchesOfSensor& matches) const {
+    double sum = 0;
+    int common = 0;
+    for (size_t s = 0; s < sensors_.size(); ++s) {
+      if (!has_reading_[s][at(pair.a)] || !has_reading_[s][at(pair.b)]) continue;
+      const Matches m = matches(s);
+      sum += sensed_space_overlap(index_[s].num_points(pair.a), index_[s].num_points(pair.b),
+                                  m.of_a, m.of_b);
+      ++common;
+    }
+    return common > 0 ? sum / common : 0.0;
+  }
+
+  bool is_arc(double overlap) const { return overlap > 0 && overlap >= options_.min_overlap; }
+
+  /// Upper bounds of the matches of each keyframe of the block with all others.
+  std::vector<KeyframeBounds> bounds(const Block& block) {
+    std::vector<KeyframeBounds> bounds(at(block.size()));
+    parallel(block.size(), [&](int i) {
+      for (const CellIndex& index : index_) bounds[at(i)].push_back(index.bounds(block.begin + i));
+    });
+    return bounds;
+  }
+
+  static bool meet(const std::vector<KeyframeBounds>& bounds, const Block& block) {
+    for (const KeyframeBounds& keyframe : bounds) {
+      for (const auto& sensor : keyframe) {
+        for (const CellIndex::Bound& bound : sensor) {
+          if (bound.begin < block.end && block.begin < bound.end) return true;
         }
       }
-      for (const int j : others) pairs.push_back({i, j, 0.0});
+    }
+    return false;
+  }
+
+  /// One number for each keyframe of the bounds, each sensor and each keyframe of the block.
+  std::vector<int> table(const std::vector<KeyframeBounds>& bounds, const Block& block) const {
+    const size_t width = at(block.size());
+    std::vector<int> table(bounds.size() * sensors_.size() * width, 0);
+    int* row = table.data();
+    for (const KeyframeBounds& keyframe : bounds) {
+      for (const auto& sensor : keyframe) {
+        for (const CellIndex::Bound& bound : sensor) {
+          const int begin = std::max(bound.begin, block.begin),
+                    end = std::min(bound.end, block.end);
+          if (begin < end)
+            std::fill(row + begin - block.begin, row + end - block.begin, bound.matches);
+        }
+        row += width;
+      }
+    }
+    return table;
+  }
+
+  /// Pairs a < b whose overlap can reach the least one that counts, ordered by (a, b).
+  std::vector<Pair> candidates(const Block& a, const std::vector<KeyframeBounds>& bounds_a,
+                               const Block& b) {
+    const std::vector<int> of_a = table(bounds_a, b), of_b = table(bounds(b), a);
+    std::vector<Pair> pairs;
+    for (int i = a.begin; i < a.end; ++i) {
+      for (int j = std::max(b.begin, i + 1); j < b.end; ++j) {
+        const double bound = mean_overlap({i, j}, [&](size_t s) {
+          const size_t row_a = (at(i - a.begin) * sensors_.size() + s) * at(b.size());
+          const size_t row_b = (at(j - b.begin) * sensors_.size() + s) * at(a.size());
+          return Matches{of_a[row_a + at(j - b.begin)], of_b[row_b + at(i - a.begin)]};
+        });
+        if (is_arc(bound)) pairs.push_back({i, j});
+      }
     }
     return pairs;
   }
 
-  double overlap(const PreparedKeyframe& a, const PreparedKeyframe& b,
-                 const PoseSpread& spread) const {
-    double sum = 0;
-    int sensors = 0;
-    for (size_t s = 0; s < sensors_.size(); ++s) {
-      if (!a.present[s] || !b.present[s]) continue;
-      ++sensors;
-      sum += sensed_space_overlap(a.points[s].size(), b.points[s].size(),
-                                  count_matches(a.points[s], b.points[s], spread, options_),
-                                  count_matches(b.points[s], a.points[s], spread, options_));
+  void add_arcs(const std::vector<Pair>& pairs, const Block& a, const BlockPoints& points_a,
+                const Block& b, const BlockPoints& points_b, std::vector<graph::Arc>& arcs) {
+    std::vector<std::vector<size_t>> pairs_of_a(at(a.size())), pairs_of_b(at(b.size()));
+    for (size_t p = 0; p < pairs.size(); ++p) {
+      pairs_of_a[at(pairs[p].a - a.begin)].push_back(p);
+      pairs_of_b[at(pairs[p].b - b.begin)].push_back(p);
     }
-    return sensors > 0 ? sum / sensors : 0.0;
+    std::vector<Matches> matches(pairs.size() * sensors_.size());
+    parallel(b.size(), [&](int i) {
+      const auto queries = [&](size_t p) -> const KeyframePoints& {
+        return points_a[at(pairs[p].a - a.begin)];
+      };
+      count(pairs, pairs_of_b[at(i)], queries, points_b[at(i)], &Matches::of_a, matches);
+    });
+    parallel(a.size(), [&](int i) {
+      const auto queries = [&](size_t p) -> const KeyframePoints& {
+        return points_b[at(pairs[p].b - b.begin)];
+      };
+      count(pairs, pairs_of_a[at(i)], queries, points_a[at(i)], &Matches::of_b, matches);
+    });
+    for (size_t p = 0; p < pairs.size(); ++p) {
+      const double overlap =
+          mean_overlap(pairs[p], [&](size_t s) { return matches[p * sensors_.size() + s]; });
+      if (is_arc(overlap)) arcs.push_back({pairs[p].a, pairs[p].b, overlap});
+    }
   }
 
-  void add_arcs(const Block& a, std::vector<graph::Arc>& arcs) {
-    const std::vector<PreparedKeyframe> prepared_a = prepare(a);
-    for (int begin = a.begin; begin < static_cast<int>(keyframes_.size()); begin += kBlockSize) {
-      const Block b{begin, std::min(static_cast<int>(keyframes_.size()), begin + kBlockSize)};
-      std::vector<Pair> pairs = candidates(a, b);
-      if (pairs.empty()) continue;
-      const std::vector<PreparedKeyframe> prepared_b = prepare(b);
-      parallel(static_cast<int>(pairs.size()), [&](int p) {
-        Pair& pair = pairs[static_cast<size_t>(p)];
-        const std::optional<Matrix6d> covariance = covariance_(pair.a, pair.b);
-        if (!covariance) return;
-        pair.overlap = overlap(prepared_a[static_cast<size_t>(pair.a - a.begin)],
-                               prepared_b[static_cast<size_t>(pair.b - b.begin)],
-                               PoseSpread(T_frame_keyframe(pair.b), *covariance));
-      });
-      for (const Pair& pair : pairs) {
-        if (pair.overlap > 0 && pair.overlap >= options_.min_overlap) {
-          arcs.push_back({pair.a, pair.b, pair.overlap});
-        }
+  /// Counts the matches of all pairs with one keyframe, the targets, so that its grids are made
+  /// once. queries_of(p): the points of the other keyframe of pair p.
+  template <typename QueriesOf>
+  void count(const std::vector<Pair>& pairs, const std::vector<size_t>& own_pairs,
+             const QueriesOf& queries_of, const KeyframePoints& targets, int Matches::*result,
+             std::vector<Matches>& matches) {
+    if (own_pairs.empty()) return;
+    std::vector<NearestGrid>& grids = grids_.local();
+    grids.resize(sensors_.size());
+    for (size_t s = 0; s < sensors_.size(); ++s) {
+      if (targets[s]) grids[s].rebuild(*targets[s]);
+    }
+    for (const size_t p : own_pairs) {
+      const std::optional<Matrix6d> covariance = covariance_(pairs[p].a, pairs[p].b);
+      if (!covariance) continue;
+      const PoseSpread spread(source_.T_frame_keyframe(pairs[p].b), *covariance);
+      const KeyframePoints& queries = queries_of(p);
+      for (size_t s = 0; s < sensors_.size(); ++s) {
+        if (!targets[s] || !queries[s]) continue;
+        matches[p * sensors_.size() + s].*result =
+            count_matches(*queries[s], *targets[s], spread, options_, &grids[s]);
       }
     }
   }
 
-  std::span<const Keyframe> keyframes_;
-  std::span<const Pose> T_world_keyframe_;
+  const KeyframePointSource& source_;
   const PairCovariance& covariance_;
-  const ObservationStore& observations_;
   const OverlapOptions& options_;
   const Run& run_;
   tbb::task_arena arena_;
-  std::vector<int> sensors_;
-  std::vector<CellIndex> index_;
+  tbb::enumerable_thread_specific<std::vector<NearestGrid>> grids_;  ///< one a sensor
+  std::vector<int> sensors_;                                         ///< by increasing number
+  std::vector<CellIndex> index_;                                     ///< one a sensor
+  std::vector<std::vector<char>> has_reading_;  ///< for each sensor, whether a keyframe has it
 };
 
 }  // namespace
@@ -205,8 +286,8 @@ graph::WeightedGraph overlap_graph(std::span<const Keyframe> keyframes,
                      std::to_string(T_world_keyframe.size()) + " poses");
   }
   for (const Pose& pose : T_world_keyframe) check_finite(pose);
-  return OverlapGraphBuilder(keyframes, T_world_keyframe, covariance, observations, options, run)
-      .build();
+  const KeyframePointSource source(keyframes, T_world_keyframe, observations, options);
+  return OverlapGraphBuilder(source, covariance, options, run).build();
 }
 
 }  // namespace hmt::submap

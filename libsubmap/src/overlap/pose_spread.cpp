@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_spread.hpp"
 
-#include <algorithm>
-
 #include "hmt/graph/input_error.hpp"
 
 namespace hmt::submap {
@@ -26,6 +24,9 @@ PoseSpread::PoseSpread(const graph::Pose& T_frame_b, const graph::Matrix6d& cova
   tt_ = R * covariance_a_b.topLeftCorner<3, 3>() * R.transpose();
   tr_ = R * covariance_a_b.topRightCorner<3, 3>() * R.transpose();
   rr_ = R * covariance_a_b.bottomRightCorner<3, 3>() * R.transpose();
+  tt_trace_ = tt_.trace();
+  quadratic_ = rr_.trace() * Eigen::Matrix3d::Identity() - rr_;
+  rotation_deviation_rad_ = std::sqrt(std::max(0.0, rr_.trace()));
   // tr(tr_ [d]x) is linear in d.
   linear_ =
       2 * Eigen::Vector3d(tr_(1, 2) - tr_(2, 1), tr_(2, 0) - tr_(0, 2), tr_(0, 1) - tr_(1, 0));
@@ -35,20 +36,6 @@ Eigen::Matrix3d PoseSpread::covariance(const Eigen::Vector3d& x) const {
   const Eigen::Matrix3d d = skew(x - origin_);
   const Eigen::Matrix3d cross = tr_ * d;
   return tt_ + cross + cross.transpose() - d * rr_ * d;
-}
-
-double PoseSpread::trace(const Eigen::Vector3d& x) const {
-  const Eigen::Vector3d d = x - origin_;
-  return tt_.trace() + linear_.dot(d) + rr_.trace() * d.squaredNorm() - d.dot(rr_ * d);
-}
-
-double PoseSpread::max_trace(const Eigen::AlignedBox3d& box) const {
-  double largest = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const auto type = static_cast<Eigen::AlignedBox3d::CornerType>(corner);
-    largest = std::max(largest, trace(box.corner(type)));
-  }
-  return largest;
 }
 
 }  // namespace hmt::submap

@@ -3,7 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 #include "hmt/graph/pose.hpp"
 
@@ -21,16 +22,26 @@ class PoseSpread {
   /// 3x3 covariance of the displacement at x, metres^2, in the common frame.
   Eigen::Matrix3d covariance(const Eigen::Vector3d& x) const;
   /// Its trace: the mean square displacement at x.
-  double trace(const Eigen::Vector3d& x) const;
-  /// The largest trace in a box; the trace is convex, so a corner attains it.
-  double max_trace(const Eigen::AlignedBox3d& box) const;
+  double trace(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d d = x - origin_;
+    return tt_trace_ + linear_.dot(d) + d.dot(quadratic_ * d);
+  }
+  /// Root mean square displacement anywhere within `radius_m` of x, at most: the root of the trace
+  /// is a norm of a displacement that is linear in x, so the triangle inequality holds.
+  double max_deviation(const Eigen::Vector3d& x, double radius_m) const {
+    return std::sqrt(std::max(0.0, trace(x))) + radius_m * rotation_deviation_rad_;
+  }
 
  private:
   Eigen::Vector3d origin_;
   Eigen::Matrix3d tt_;  ///< covariance of the translation, common frame
   Eigen::Matrix3d tr_;
   Eigen::Matrix3d rr_;
-  Eigen::Vector3d linear_;  ///< the trace is constant + linear . d + d^T (tr(rr) I - rr) d
+  // The trace is tt_trace + linear . d + d^T quadratic d.
+  double tt_trace_ = 0;
+  Eigen::Vector3d linear_;
+  Eigen::Matrix3d quadratic_;
+  double rotation_deviation_rad_ = 0;
 };
 
 }  // namespace hmt::submap

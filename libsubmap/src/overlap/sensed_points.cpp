@@ -37,11 +37,16 @@ SensedPoints::SensedPoints(const Reading& reading, const Pose& T_frame_robot,
   const int used_leaves = (size() + kLeafSize - 1) / kLeafSize;
   const int leaves = static_cast<int>(std::bit_ceil(static_cast<unsigned>(used_leaves)));
   sort_into_leaves(0, leaves);
+  make_nodes(leaves);
+  make_leaves(used_leaves);
+}
+
+void SensedPoints::make_nodes(int leaves) {
   first_leaf_ = leaves - 1;
   nodes_.resize(static_cast<size_t>(2 * leaves - 1));
   for (int node = 2 * leaves - 2; node >= 0; --node) {
     Node& n = nodes_[static_cast<size_t>(node)];
-    for (const SensedPoint& p : leaf(node)) {
+    for (const SensedPoint& p : node_points(node)) {
       n.box.extend(p.position);
       n.gate = std::max(n.gate, p.gate);
     }
@@ -53,9 +58,20 @@ SensedPoints::SensedPoints(const Reading& reading, const Pose& T_frame_robot,
   }
 }
 
-std::span<const SensedPoint> SensedPoints::leaf(int node) const {
-  if (node < first_leaf_) return {};
-  const auto begin = std::min(points_.size(), static_cast<size_t>(node - first_leaf_) * kLeafSize);
+void SensedPoints::make_leaves(int leaves) {
+  leaves_.reserve(static_cast<size_t>(leaves));
+  for (int i = 0; i < leaves; ++i) {
+    const Node& node = nodes_[static_cast<size_t>(first_leaf_ + i)];
+    Leaf leaf{node.box.center(), node.box.sizes() / 2, 0, node.gate, node.gate, 0};
+    leaf.radius_m = leaf.half.norm();
+    for (const SensedPoint& p : leaf_points(i)) leaf.min_gate = std::min(leaf.min_gate, p.gate);
+    leaf.size = static_cast<int>(leaf_points(i).size());
+    leaves_.push_back(leaf);
+  }
+}
+
+std::span<const SensedPoint> SensedPoints::leaf_points(int leaf) const {
+  const auto begin = std::min(points_.size(), static_cast<size_t>(leaf) * kLeafSize);
   return std::span(points_).subspan(begin, std::min<size_t>(kLeafSize, points_.size() - begin));
 }
 

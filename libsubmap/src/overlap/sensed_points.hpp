@@ -28,8 +28,18 @@ class SensedPoints {
     Eigen::AlignedBox3f box;
     float gate = 0;
   };
-  /// Points of one leaf; small enough to be scanned at once.
-  static constexpr int kLeafSize = 8;
+  /// The points of one leaf: leaf g holds the points from g * kLeafSize on.
+  struct Leaf {
+    Eigen::Vector3f center;
+    Eigen::Vector3f half;  ///< half the sides of the box of the points
+    float radius_m = 0;    ///< half its diagonal
+    float min_gate = 0;
+    float max_gate = 0;
+    int size = 0;
+  };
+  /// Neighbouring points of a surface, so close together against their gates that they often match
+  /// one and the same point.
+  static constexpr int kLeafSize = 4;
 
   SensedPoints() = default;
   /// Points that are not finite are left out.
@@ -39,16 +49,22 @@ class SensedPoints {
   std::span<const SensedPoint> points() const { return points_; }
   /// Empty where there are no points.
   std::span<const Node> nodes() const { return nodes_; }
-  const Eigen::AlignedBox3f& box() const { return nodes_.front().box; }
-  float max_gate() const { return nodes_.front().gate; }
+  std::span<const Leaf> leaves() const { return leaves_; }
+  /// The points of leaf g.
+  std::span<const SensedPoint> leaf_points(int leaf) const;
   /// The points of a leaf node; nothing for an inner node.
-  std::span<const SensedPoint> leaf(int node) const;
+  std::span<const SensedPoint> node_points(int node) const {
+    return node < first_leaf_ ? std::span<const SensedPoint>{} : leaf_points(node - first_leaf_);
+  }
 
  private:
   void sort_into_leaves(int begin_leaf, int end_leaf);
+  void make_nodes(int leaves);
+  void make_leaves(int leaves);
 
   std::vector<SensedPoint> points_;
   std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;
   int first_leaf_ = 0;  ///< index of the first leaf node
 };
 
