@@ -36,8 +36,12 @@ double observation_overlap(const Observation& a, const Observation& b, const Pos
                            const Matrix6d& covariance_a_b, const OverlapOptions& options);
 
 /// Omega: the overlap of all pairs of keyframes whose sensed regions meet at the given poses and
-/// whose relative pose is known well enough to tell. Never looks at all n^2 pairs. Same result for
-/// any number of threads.
+/// whose relative pose is known well enough to tell. Never looks at the points of all n^2 pairs.
+/// Weights equal observation_overlap up to the rounding of points to float. Same result for any
+/// number of threads. `covariance` is asked with a < b, twice a pair and from several threads at
+/// once; no arc where it has none. Throws InputError for options out of range, numbers that are not
+/// finite and a number of poses that is not that of the keyframes; Interrupted where `run` asks to
+/// stop.
 graph::WeightedGraph overlap_graph(std::span<const Keyframe> keyframes,
                                    std::span<const Pose> T_world_keyframe,
                                    const PairCovariance& covariance,
