@@ -140,6 +140,13 @@ class MapCheck {
 
 }  // namespace
 
+bool MapFile::complete() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->database.query_integer(
+             "SELECT EXISTS (SELECT 1 FROM contents WHERE name = 'solution') AND NOT EXISTS "
+             "(SELECT 1 FROM submaps WHERE id NOT IN (SELECT submap FROM octrees))") == 1;
+}
+
 Track MapFile::load_track() const {
   const std::lock_guard lock(impl_->mutex);
   Database& database = impl_->database;

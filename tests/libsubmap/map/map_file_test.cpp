@@ -4,8 +4,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <thread>
 
@@ -82,6 +87,62 @@ TEST(MapFile, HoldsExactlyTheCommittedStages) {
   EXPECT_EQ(file.load_overlap().size(), 1u);
   EXPECT_THAT(error_of([&] { file.load_partition(); }), HasSubstr("not finished"));
   EXPECT_THAT(error_of([&] { file.begin("overlap"); }), HasSubstr("finished already"));
+}
+
+/// Runs an action that ends with raise(SIGKILL) in a process of its own; true if it got that far.
+bool dies_in(const std::function<void()>& action) {
+  const pid_t child = fork();
+  if (child == 0) {
+    action();
+    _exit(1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+}
+
+TEST(MapFile, AKilledStageLeavesTheStagesBeforeIt) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.hmt";
+  ASSERT_TRUE(dies_in([&] {
+    MapFile file = MapFile::open_for_run(path, sample_origin(), MapFile::Existing::resume);
+    StageWriter first = file.begin("first");
+    first.put_overlap(sample_map().overlap);
+    first.commit();
+    StageWriter second = file.begin("second");
+    second.put_overlap({});
+    // Beyond the page cache, so that part of it is in the file already.
+    for (int64_t k = 0; k < 10000; ++k) second.add(sample_observation(k));
+    raise(SIGKILL);
+  }));
+  EXPECT_TRUE(std::filesystem::exists(path.string() + "-journal"));
+  EXPECT_EQ(MapFile::open(path).num_observations(), 0);
+  MapFile file = MapFile::open_for_run(path, sample_origin(), MapFile::Existing::resume);
+  EXPECT_EQ(file.stages(), std::vector<std::string>{"first"});
+  EXPECT_EQ(file.load_overlap().size(), 1u);
+}
+
+TEST(MapFile, AFullDiskIsNamedAndLosesNothing) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.hmt";
+  write_sample_map(path);
+  MapFile file = MapFile::open_for_run(path, sample_origin(), MapFile::Existing::resume);
+  // A limit on the size of files stands for the disk.
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{std::filesystem::file_size(path) + 4096, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string error = error_of([&] {
+    StageWriter stage = file.begin("more");
+    for (int64_t k = 100; k < 20000; ++k) stage.add(sample_observation(k));
+    stage.commit();
+  });
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_THAT(error, HasSubstr(path.string()));
+  EXPECT_FALSE(file.finished("more"));
+  EXPECT_EQ(MapFile::open(path).load_map().submaps, sample_map().submaps);
 }
 
 TEST(MapFile, IsOneFileOnceClosed) {

@@ -72,6 +72,8 @@ class MapFile : public ObservationStore {
   bool finished(std::string_view stage) const;
   /// Keys of the finished stages in the order of their commits.
   std::vector<std::string> stages() const;
+  /// True once there is a solution and an octree for every submap, so that all can be loaded.
+  bool complete() const;
   /// Begins a stage; nothing of it is in the file before its commit. One at a time; the map file
   /// must outlive it and stay where it is.
   StageWriter begin(std::string stage);
