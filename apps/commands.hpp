@@ -9,6 +9,8 @@ namespace hmt::apps {
 
 Action add_map(CLI::App& command);
 Action add_export(CLI::App& command);
+Action add_check(CLI::App& command);
+Action add_info(CLI::App& command);
 Action add_evaluate(CLI::App& command);
 Action add_optimize(CLI::App& command);
 Action add_partition(CLI::App& command);

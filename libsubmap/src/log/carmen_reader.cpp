@@ -143,6 +143,9 @@ void CarmenReader::keep_scan(int sensor, std::string_view message, CarmenScan re
   }
   if (!stamp_fields_) stamp_fields_ = record.stamp_fields;
   if (record.stamp_fields != *stamp_fields_) throw std::invalid_argument("wrong number of fields");
+  if (laser.beams && *laser.beams != record.ranges_m.size())
+    note("changes of the number of beams", lines_.place());
+  laser.beams = record.ranges_m.size();
   laser.limit.add(record.ranges_m, record.T_odom_laser.translation.head<2>());
   ahead_.push_back({sensor, lines_.place(), std::move(record)});
 }

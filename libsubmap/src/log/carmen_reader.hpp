@@ -39,6 +39,7 @@ class CarmenReader : public LogReader {
     std::string message;  ///< the message it is read from
     Pose T_robot_laser;
     RangeLimit limit;
+    std::optional<size_t> beams;  ///< of the last scan
   };
 
   bool read_scan();

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <spdlog/fmt/fmt.h>
+
+#include <CLI/CLI.hpp>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "hmt/graph/input_error.hpp"
+#include "log_text.hpp"
+
+namespace hmt::apps {
+namespace {
+
+struct Verdict {
+  ExitCode code = kDone;
+  nlohmann::ordered_json json;
+  std::string text;
+};
+
+Verdict judge(const std::string& path, const submap::LogSummary& summary) {
+  const bool losses = !summary.report.losses.empty();
+  const char* verdict = losses                     ? "usable with losses"
+                        : summary.findings.empty() ? "fine"
+                                                   : "fine, with notes";
+  Verdict result;
+  result.code = losses ? kDoneWithLosses : kDone;
+  result.json = {{"log", path}, {"verdict", verdict}};
+  result.json.update(log_json(summary));
+  result.json["notes"] = summary.report.notes;
+  result.json["losses"] = summary.report.losses;
+  result.json["findings"] = summary.findings;
+  result.text = fmt::format("{}: {}\n{}", path, verdict, log_text(summary));
+  for (const std::string& finding : summary.findings)
+    result.text += fmt::format("  - {}\n", finding);
+  return result;
+}
+
+Verdict check_log(const std::string& path, const submap::Run& run) {
+  try {
+    const auto log = submap::open_log(path);
+    return judge(path, submap::summarize_log(*log, run));
+  } catch (const graph::InputError& error) {
+    return {kFailed,
+            {{"log", path}, {"verdict", "unusable"}, {"findings", {error.what()}}},
+            fmt::format("{}: unusable\n  - {}\n", path, error.what())};
+  }
+}
+
+/// The worst of two: unusable, then losses, then fine.
+ExitCode worse(ExitCode a, ExitCode b) {
+  for (const ExitCode code : {kFailed, kDoneWithLosses})
+    if (a == code || b == code) return code;
+  return kDone;
+}
+
+int check(const std::vector<std::string>& paths, const Globals& globals) {
+  const submap::Run run = make_run(globals);
+  nlohmann::ordered_json json = {{"logs", nlohmann::ordered_json::array()}};
+  std::string text;
+  ExitCode code = kDone;
+  for (const std::string& path : paths) {
+    const Verdict verdict = check_log(path, run);
+    code = worse(code, verdict.code);
+    json["logs"].push_back(verdict.json);
+    text += verdict.text;
+  }
+  print_result(globals, json, text);
+  return code;
+}
+
+}  // namespace
+
+Action add_check(CLI::App& command) {
+  const auto paths = std::make_shared<std::vector<std::string>>();  // by the parser and the action
+  command.add_option("LOG", *paths, "Logs to examine")->required();
+  command.footer("Exit code 0: fine; 3: usable, but records had to be left out; 1: unusable.");
+  return [paths](const Globals& globals) { return check(*paths, globals); };
+}
+
+}  // namespace hmt::apps
