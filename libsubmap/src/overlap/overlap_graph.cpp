@@ -12,6 +12,7 @@
 #include "count_matches.hpp"
 #include "hmt/submap/overlap/overlap.hpp"
 #include "keyframe_points.hpp"
+#include "packed_covariance.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -21,8 +22,9 @@ size_t at(int i) {
 }
 
 // Two blocks of consecutive keyframes are held at a time, so that memory does not grow with the
-// points of the log: some 100 MB by these limits. Larger blocks would prepare keyframes less often.
-constexpr int kBlockKeyframes = 2048;
+// points of the log: some 100 MB for the points and 100 MB for the pairs by these limits. Larger
+// blocks would prepare keyframes less often.
+constexpr int kBlockKeyframes = 1024;
 constexpr int64_t kBlockPoints = 1'000'000;
 
 struct Block {
@@ -40,6 +42,7 @@ using BlockPoints = std::vector<KeyframePoints>;
 struct Pair {
   int a = 0;
   int b = 0;
+  PackedCovariance covariance;  ///< of T_a_b
 };
 
 /// Points of a that match one of b and of b that match one of a, for one sensor.
@@ -68,8 +71,12 @@ class OverlapGraphBuilder {
       const std::vector<KeyframeBounds> bounds_a = bounds(a);
       for (const Block& b : all) {
         if (b.begin < a.begin || !meet(bounds_a, b)) continue;
-        const std::vector<Pair> pairs = candidates(a, bounds_a, b);
+        std::vector<Pair> pairs = candidates(a, bounds_a, b);
         if (pairs.empty()) continue;
+        parallel(static_cast<int>(pairs.size()), [&](int p) {
+          Pair& pair = pairs[at(p)];
+          pair.covariance = PackedCovariance(covariance_(pair.a, pair.b));
+        });
         add_arcs(pairs, a, points_a, b, b.begin == a.begin ? points_a : prepare(b), arcs);
       }
       run_.report({"overlap", static_cast<double>(a.end), static_cast<double>(num_keyframes())});
@@ -138,14 +145,13 @@ class OverlapGraphBuilder {
 
   /// Mean over the common sensors of the overlap with the matches that matches(s) returns.
   template <typename MatchesOfSensor>
-  double mean_overlap(const Pair& pair, const MatchesOfSensor& matches) const {
+  double mean_overlap(int a, int b, const MatchesOfSensor& matches) const {
     double sum = 0;
     int common = 0;
     for (size_t s = 0; s < sensors_.size(); ++s) {
-      if (!has_reading_[s][at(pair.a)] || !has_reading_[s][at(pair.b)]) continue;
+      if (!has_reading_[s][at(a)] || !has_reading_[s][at(b)]) continue;
       const Matches m = matches(s);
-      sum += sensed_space_overlap(index_[s].num_points(pair.a), index_[s].num_points(pair.b),
-                                  m.of_a, m.of_b);
+      sum += sensed_space_overlap(index_[s].num_points(a), index_[s].num_points(b), m.of_a, m.of_b);
       ++common;
     }
     return common > 0 ? sum / common : 0.0;
@@ -199,12 +205,12 @@ class OverlapGraphBuilder {
     std::vector<Pair> pairs;
     for (int i = a.begin; i < a.end; ++i) {
       for (int j = std::max(b.begin, i + 1); j < b.end; ++j) {
-        const double bound = mean_overlap({i, j}, [&](size_t s) {
+        const double bound = mean_overlap(i, j, [&](size_t s) {
           const size_t row_a = (at(i - a.begin) * sensors_.size() + s) * at(b.size());
           const size_t row_b = (at(j - b.begin) * sensors_.size() + s) * at(a.size());
           return Matches{of_a[row_a + at(j - b.begin)], of_b[row_b + at(i - a.begin)]};
         });
-        if (is_arc(bound)) pairs.push_back({i, j});
+        if (is_arc(bound)) pairs.push_back({i, j, {}});
       }
     }
     return pairs;
@@ -231,8 +237,8 @@ class OverlapGraphBuilder {
       count(pairs, pairs_of_a[at(i)], queries, points_a[at(i)], &Matches::of_b, matches);
     });
     for (size_t p = 0; p < pairs.size(); ++p) {
-      const double overlap =
-          mean_overlap(pairs[p], [&](size_t s) { return matches[p * sensors_.size() + s]; });
+      const double overlap = mean_overlap(
+          pairs[p].a, pairs[p].b, [&](size_t s) { return matches[p * sensors_.size() + s]; });
       if (is_arc(overlap)) arcs.push_back({pairs[p].a, pairs[p].b, overlap});
     }
   }
@@ -250,9 +256,8 @@ class OverlapGraphBuilder {
       if (targets[s]) grids[s].rebuild(*targets[s]);
     }
     for (const size_t p : own_pairs) {
-      const std::optional<Matrix6d> covariance = covariance_(pairs[p].a, pairs[p].b);
-      if (!covariance) continue;
-      const PoseSpread spread(source_.T_frame_keyframe(pairs[p].b), *covariance);
+      if (!pairs[p].covariance.known()) continue;
+      const PoseSpread spread(source_.T_frame_keyframe(pairs[p].b), pairs[p].covariance.matrix());
       const KeyframePoints& queries = queries_of(p);
       for (size_t s = 0; s < sensors_.size(); ++s) {
         if (!targets[s] || !queries[s]) continue;

@@ -37,11 +37,11 @@ double observation_overlap(const Observation& a, const Observation& b, const Pos
 
 /// Omega: the overlap of all pairs of keyframes whose sensed regions meet at the given poses and
 /// whose relative pose is known well enough to tell. Never looks at the points of all n^2 pairs.
-/// Weights equal observation_overlap up to the rounding of points to float. Same result for any
-/// number of threads. `covariance` is asked with a < b, twice a pair and from several threads at
-/// once; no arc where it has none. Throws InputError for options out of range, numbers that are not
-/// finite and a number of poses that is not that of the keyframes; Interrupted where `run` asks to
-/// stop.
+/// Weights equal observation_overlap up to the rounding of points and covariances to float. Same
+/// result for any number of threads. `covariance` is asked with a < b, once a pair, from several
+/// threads at once; no arc where it has none. Throws InputError for options out of range, numbers
+/// that are not finite and a number of poses that is not that of the keyframes; Interrupted where
+/// `run` asks to stop.
 graph::WeightedGraph overlap_graph(std::span<const Keyframe> keyframes,
                                    std::span<const Pose> T_world_keyframe,
                                    const PairCovariance& covariance,
