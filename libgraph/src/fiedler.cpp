@@ -7,21 +7,18 @@
 #include <cmath>
 #include <random>
 
-#include "hmt/graph/input_error.hpp"
 #include "laplacian_factor.hpp"
+#include "multilevel_fiedler.hpp"
 
 namespace hmt::graph {
 namespace {
 
 // Up to this size all eigenpairs are computed at once.
 constexpr int kAllPairsSize = 20;
-// Keeps the factorized matrix positive definite; far below lambda_2 of a chain of 10^5 nodes.
-constexpr double kShift = 1e-10;
 // Lanczos vectors at most; convergence takes 6 to 15 where lambda_2 is apart from lambda_3.
 constexpr int kMaxVectors = 60;
 // Ritz residual of the inverse relative to its Ritz value at which the pair counts as converged.
 constexpr double kTolerance = 1e-9;
-constexpr double kMaxFactorBytes = 4e9;
 
 Eigen::VectorXd null_vector(const CsrGraph& graph) {
   Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(graph.degrees.data(), graph.size());
@@ -50,14 +47,6 @@ FiedlerPairs all_pairs(const CsrGraph& graph, int count) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(laplacian);
   const int kept = std::min(count, n - 1);
   return {solver.eigenvalues().head(kept), solver.eigenvectors().leftCols(kept), 0};
-}
-
-Eigen::VectorXd start_vector(int n) {
-  std::minstd_rand random(1);
-  Eigen::VectorXd v(n);
-  for (int i = 0; i < n; ++i)
-    v[i] = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
-  return v;
 }
 
 // The Lanczos process on (L + shift I)^-1, orthogonal to the null vector, with full
@@ -123,7 +112,7 @@ class Lanczos {
     result.lambda.resize(count);
     result.z.resize(basis_.rows(), count);
     for (int k = 0; k < count; ++k) {
-      result.lambda[k] = 1 / ritz.eigenvalues()[steps - 1 - k] - kShift;
+      result.lambda[k] = 1 / ritz.eigenvalues()[steps - 1 - k] - kLanczosShift;
       result.z.col(k) = basis_.leftCols(steps) * ritz.eigenvectors().col(steps - 1 - k);
       result.z.col(k).normalize();
     }
@@ -150,17 +139,26 @@ void fix_signs(Eigen::MatrixXd& z) {
 
 }  // namespace
 
+Eigen::VectorXd start_vector(int n) {
+  std::minstd_rand random(1);
+  Eigen::VectorXd v(n);
+  for (int i = 0; i < n; ++i)
+    v[i] = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
+  return v;
+}
+
+FiedlerPairs lanczos_pairs(const CsrGraph& graph, LaplacianFactor& factor, int count) {
+  return Lanczos(graph, factor).run(count);
+}
+
 FiedlerPairs fiedler_pairs(const CsrGraph& graph, int count) {
   FiedlerPairs result;
-  if (graph.size() <= kAllPairsSize) {
+  if (graph.size() <= kAllPairsSize)
     result = all_pairs(graph, count);
-  } else {
-    const auto factor = factorize_laplacian(graph, kShift, kMaxFactorBytes);
-    if (!factor)
-      throw InputError("a group of " + std::to_string(graph.size()) +
-                       " nodes is too large to factorize in memory; use fewer arcs");
-    result = Lanczos(graph, *factor).run(count);
-  }
+  else if (const auto factor = factorize_laplacian(graph, kLanczosShift))
+    result = lanczos_pairs(graph, *factor, count);
+  else
+    result = multilevel_fiedler(graph);
   fix_signs(result.z);
   set_residual(graph, result);
   return result;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "csr_graph.hpp"
+#include "laplacian_factor.hpp"
 
 namespace hmt::graph {
 
@@ -18,7 +19,17 @@ struct FiedlerPairs {
 };
 
 /// At most `count` pairs of a connected group of at least two nodes. Small groups are solved
-/// densely, others by shift-invert Lanczos from a fixed start vector.
+/// densely, others by shift-invert Lanczos from a fixed start vector; groups that are too large to
+/// factorize by multilevel_fiedler, with one pair.
 FiedlerPairs fiedler_pairs(const CsrGraph& graph, int count);
+
+/// Keeps the factorized matrix positive definite; far below lambda_2 of a chain of 10^5 nodes.
+constexpr double kLanczosShift = 1e-10;
+
+/// At most `count` pairs by the Lanczos process on the factor of L + kLanczosShift I.
+FiedlerPairs lanczos_pairs(const CsrGraph& graph, LaplacianFactor& factor, int count);
+
+/// Fixed pseudo-random numbers in [-1/2, 1/2].
+Eigen::VectorXd start_vector(int n);
 
 }  // namespace hmt::graph

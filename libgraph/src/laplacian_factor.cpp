@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // Of libgomp, which CHOLMOD is linked to; declared here because Clang comes without its header.
 extern "C" {
@@ -65,7 +66,7 @@ class DenseFactor : public LaplacianFactor {
 
 class SparseFactor : public LaplacianFactor {
  public:
-  SparseFactor(const CsrGraph& graph, double shift, double max_bytes) {
+  SparseFactor(const CsrGraph& graph, double shift, const FactorLimits& limits) {
     cholmod_start(&common_);
     common_.print = 0;
     common_.error_handler = nullptr;
@@ -75,8 +76,8 @@ class SparseFactor : public LaplacianFactor {
     cholmod_sparse* matrix = lower_triangle(graph, shift);
     if (matrix == nullptr) return;
     factor_ = cholmod_analyze(matrix, &common_);
-    const bool fits =
-        factor_ != nullptr && common_.lnz * static_cast<double>(sizeof(double)) <= max_bytes;
+    const bool fits = factor_ != nullptr && common_.fl <= limits.flops &&
+                      common_.lnz * static_cast<double>(sizeof(double)) <= limits.bytes;
     ok_ = fits && cholmod_factorize(matrix, factor_, &common_) != 0 &&
           common_.status == CHOLMOD_OK && factor_->minor == factor_->n;
     cholmod_free_sparse(&matrix, &common_);
@@ -109,7 +110,8 @@ class SparseFactor : public LaplacianFactor {
  private:
   cholmod_sparse* lower_triangle(const CsrGraph& graph, double shift) {
     const auto n = static_cast<size_t>(graph.size());
-    const size_t entries = graph.columns.size() / 2 + n;
+    const size_t entries = (graph.columns.size() + n) / 2 + n;
+    if (entries > static_cast<size_t>(std::numeric_limits<int>::max())) return nullptr;
     cholmod_sparse* matrix =
         cholmod_allocate_sparse(n, n, entries, 1, 1, -1, CHOLMOD_REAL, &common_);
     if (matrix == nullptr) return nullptr;
@@ -120,14 +122,20 @@ class SparseFactor : public LaplacianFactor {
     int next = 0;
     for (size_t i = 0; i < n; ++i) {
       starts[i] = next;
-      rows[next] = static_cast<int>(i);
-      values[next++] = 1 + shift;
+      const int diagonal = next++;
+      rows[diagonal] = static_cast<int>(i);
+      values[diagonal] = 1 + shift;
       for (auto k = static_cast<size_t>(graph.offsets[i]);
            k < static_cast<size_t>(graph.offsets[i + 1]); ++k) {
         const int j = graph.columns[k];
-        if (static_cast<size_t>(j) <= i) continue;
+        if (static_cast<size_t>(j) < i) continue;
+        const double value = -graph.weights[k] * roots[static_cast<int>(i)] * roots[j];
+        if (static_cast<size_t>(j) == i) {
+          values[diagonal] += value;
+          continue;
+        }
         rows[next] = j;
-        values[next++] = -graph.weights[k] * roots[static_cast<int>(i)] * roots[j];
+        values[next++] = value;
       }
     }
     starts[n] = next;
@@ -145,13 +153,13 @@ class SparseFactor : public LaplacianFactor {
 }  // namespace
 
 std::unique_ptr<LaplacianFactor> factorize_laplacian(const CsrGraph& graph, double shift,
-                                                     double max_bytes) {
+                                                     const FactorLimits& limits) {
   if (graph.size() <= kDenseSize) {
     auto dense = std::make_unique<DenseFactor>(graph, shift);
     if (dense->ok()) return dense;
     return nullptr;
   }
-  auto sparse = std::make_unique<SparseFactor>(graph, shift, max_bytes);
+  auto sparse = std::make_unique<SparseFactor>(graph, shift, limits);
   if (sparse->ok()) return sparse;
   return nullptr;
 }

@@ -18,9 +18,16 @@ class LaplacianFactor {
   virtual void solve(Eigen::Ref<const Eigen::VectorXd> b, Eigen::VectorXd& x) = 0;
 };
 
-/// Null where the factor would take more than `max_bytes` or cannot be computed.
+/// Beyond these a factor is not computed: it would take too much memory or time, as estimated from
+/// its pattern.
+struct FactorLimits {
+  double bytes = 1e9;
+  double flops = 6e9;  ///< some seconds
+};
+
+/// Null where the factor would be beyond the limits or cannot be computed.
 std::unique_ptr<LaplacianFactor> factorize_laplacian(const CsrGraph& graph, double shift,
-                                                     double max_bytes);
+                                                     const FactorLimits& limits = {});
 
 /// y = L x.
 void apply_laplacian(const CsrGraph& graph, const Eigen::VectorXd& x, Eigen::VectorXd& y);
