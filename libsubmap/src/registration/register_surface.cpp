@@ -16,12 +16,6 @@ namespace {
 // Steps below this change nothing that a range sensor could tell.
 constexpr double kSmallStep_m = 2e-6;
 constexpr double kSmallStep_rad = 1e-6;
-// Steps below these show that the right surfaces are matched.
-constexpr double kSettledStep_m = 1e-3;
-constexpr double kSettledStep_rad = 1e-3;
-// How the surfaces count against the prior: on the way by the geometry alone, since large residuals
-// far from the result must not hand the pose to the prior; at the result honestly.
-enum class Weighting { geometric, honest };
 // Makes singular systems solvable; worth 100 m and 100 rad, so it holds nothing.
 constexpr double kNothing = 1e-4;
 
@@ -42,7 +36,7 @@ Vector6d solve_in(Space space, const Matrix6d& A, const Vector6d& b) {
 // it is against the prior. With prior information P about the step d to the prior: (I + P) x = I u
 // + P d.
 Vector6d solve_step(const SurfaceMatcher& matcher, const Pose& T_target_source,
-                    const RegistrationOptions& options, Weighting weighting) {
+                    const RegistrationOptions& options) {
   Matrix6d H = kNothing * Matrix6d::Identity();
   Vector6d g = Vector6d::Zero();
   for (const Match& match : matcher.matches()) {
@@ -50,9 +44,7 @@ Vector6d solve_step(const SurfaceMatcher& matcher, const Pose& T_target_source,
     H.noalias() += weight * match.jacobian * match.jacobian.transpose();
     g.noalias() -= weight * match.residual_m * match.jacobian;
   }
-  Matrix6d information = weighting == Weighting::geometric
-                             ? geometric_information(matcher, options.space)
-                             : honest_information(matcher, options.space);
+  Matrix6d information = geometric_information(matcher, options.space);
   Vector6d weighted = information * solve_in(options.space, H, g);
   if (options.prior) {
     information += options.prior->information;
@@ -64,10 +56,6 @@ Vector6d solve_step(const SurfaceMatcher& matcher, const Pose& T_target_source,
   // The chart of rotations ends at 2; no step needs to be that large.
   const double angle = step.tail<3>().norm();
   return angle > 0.5 ? Vector6d(step * (0.5 / angle)) : step;
-}
-
-bool is_settled(const Vector6d& step) {
-  return step.head<3>().norm() < kSettledStep_m && step.tail<3>().norm() < kSettledStep_rad;
 }
 
 bool is_small(const Vector6d& step) {
@@ -82,16 +70,13 @@ Registration register_surface(const Surface& source, const RegistrationTarget& t
   Registration result;
   result.T_target_source = T_target_source_guess;
   SurfaceMatcher matcher(source, target.impl(), options.max_correspondence_m);
-  Weighting weighting = Weighting::geometric;
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     matcher.match(result.T_target_source);
     if (matcher.matches().size() < 3) return result;
-    const Vector6d step = solve_step(matcher, result.T_target_source, options, weighting);
+    const Vector6d step = solve_step(matcher, result.T_target_source, options);
     result.T_target_source = boxplus(result.T_target_source, step);
     result.termination = Registration::Termination::iteration_limit;
-    if (options.prior && weighting == Weighting::geometric && is_settled(step)) {
-      weighting = Weighting::honest;
-    } else if (is_small(step) && !matcher.shrunk()) {
+    if (is_small(step) && !matcher.shrunk()) {
       result.termination = Registration::Termination::converged;
       break;
     }

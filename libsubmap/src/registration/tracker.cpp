@@ -34,21 +34,14 @@ Matrix6d unknown_step(Space space) {
 // A registration is taken if so many of the usable points meet the local map; new sights open at
 // less than half of the view from one observation to the next.
 constexpr double kLeastInlierFraction = 0.5;
-// The same for a match that the odometry does not speak for at all.
-constexpr double kLeastFarInlierFraction = 0.75;
 // Chi2 of three degrees of freedom beyond which a prediction is doubted (one in a thousand).
 constexpr double kDoubtful2 = 16;
-// Between registrations of nearly the same quality the one nearer to the odometry is taken; wheels
-// slip and clocks jitter with heavy tails, hence the logarithm.
-constexpr double kRankPerDoubt = 0.02;
+// A registration that contradicts the odometry needs more inliers: wheels slip and clocks jitter
+// with heavy tails, hence the logarithm. 0.12 more at chi2 1000, about 30 standard deviations.
+constexpr double kInliersPerDoubt = 0.03;
 constexpr int kStarts = 3;
 constexpr double kLeastWindow_m = 0.5, kLargestWindow_m = 2.0;
 constexpr double kLeastWindow_rad = 0.3, kLargestWindow_rad = 1.0;
-
-bool is_good(const Registration& registration) {
-  return registration.termination != Registration::Termination::too_few_points &&
-         registration.inlier_fraction >= kLeastInlierFraction;
-}
 
 // Whether the registration told more than the prediction in every direction.
 bool observes_all(Space space, const Matrix6d& information, const Matrix6d& predicted) {
@@ -119,14 +112,21 @@ double Tracker::mahalanobis2(const Pose& T_track_robot, const Prediction& predic
   return innovation.dot(prediction.information * innovation);
 }
 
+double Tracker::credit(const Registration& registration, const Prediction& prediction) const {
+  if (registration.termination == Registration::Termination::too_few_points) return 0;
+  const double doubt = mahalanobis2(registration.T_target_source, prediction) / kDoubtful2;
+  return registration.inlier_fraction - kInliersPerDoubt * std::log(std::max(1.0, doubt));
+}
+
 Tracker::Estimate Tracker::estimate(const Surface& surface, const Prediction& prediction) {
   RegistrationOptions options;
   options.space = space_;
   options.prior = PosePrior{prediction.T_track_robot, prediction.information};
   Registration found = register_surface(surface, map_.target(), prediction.T_track_robot, options);
-  if (!is_good(found) || mahalanobis2(found.T_target_source, prediction) > kDoubtful2) {
+  if (credit(found, prediction) < kLeastInlierFraction ||
+      mahalanobis2(found.T_target_source, prediction) > kDoubtful2) {
     found = search(surface, prediction, found);
-    if (!is_good(found)) {
+    if (credit(found, prediction) < kLeastInlierFraction) {
       ++counts_.odometry_only;
       return {prediction.T_track_robot, Matrix6d::Zero(), false};
     }
@@ -144,10 +144,8 @@ Registration Tracker::search(const Surface& surface, const Prediction& predictio
   const CorrelativeWindow window{std::clamp(5 * sigma_m, kLeastWindow_m, kLargestWindow_m),
                                  std::clamp(5 * sigma_rad, kLeastWindow_rad, kLargestWindow_rad)};
   const Registration near = search_within(window, surface, prediction, first);
-  if (is_good(near)) return near;
-  const Registration far =
-      search_within({kLargestWindow_m, std::numbers::pi}, surface, prediction, near);
-  return far.inlier_fraction >= kLeastFarInlierFraction ? far : near;
+  if (credit(near, prediction) >= kLeastInlierFraction) return near;
+  return search_within({kLargestWindow_m, std::numbers::pi}, surface, prediction, near);
 }
 
 Registration Tracker::search_within(const CorrelativeWindow& window, const Surface& surface,
@@ -157,7 +155,6 @@ Registration Tracker::search_within(const CorrelativeWindow& window, const Surfa
        correlative_search(surface, map_.target(), prediction.T_track_robot, window, kStarts))
     starts.push_back(match.T_target_source);
   Registration best = first;
-  double best_rank = -1;
   for (const Pose& start : starts) {
     // The odometry is as wrong as the start says, but only in that direction: along a corridor, of
     // which the start knows nothing, it still counts.
@@ -168,13 +165,7 @@ Registration Tracker::search_within(const CorrelativeWindow& window, const Surfa
         PosePrior{prediction.T_track_robot,
                   inverse_in(space_, prediction.covariance + 4 * error * error.transpose())};
     const Registration found = register_surface(surface, map_.target(), start, options);
-    const double rank =
-        found.inlier_fraction -
-        kRankPerDoubt * std::log1p(mahalanobis2(found.T_target_source, prediction) / kDoubtful2);
-    if (is_good(found) && rank > best_rank) {
-      best = found;
-      best_rank = rank;
-    }
+    if (credit(found, prediction) > credit(best, prediction)) best = found;
   }
   return best;
 }

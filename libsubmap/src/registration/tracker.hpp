@@ -45,6 +45,8 @@ class Tracker {
                       const Registration& first);
   Registration search_within(const CorrelativeWindow& window, const Surface& surface,
                              const Prediction& prediction, const Registration& first);
+  /// Inlier fraction less what the contradiction to the odometry costs.
+  double credit(const Registration& registration, const Prediction& prediction) const;
   double mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const;
   void start(const Observation& observation);
   void add_keyframe(const Observation& observation, const Estimate& estimate, Surface surface);
