@@ -26,7 +26,7 @@ const std::vector<Command> kCommands = {
     {"evaluate", "Errors of a map or trajectory against truth", add_evaluate},
     {"partition", "Cut an overlap graph into groups by recursive spectral min-Ncut", add_partition},
     {"optimize", "Optimize a pose graph in g2o format", add_optimize},
-    {"compare", "How alike two partitions are", add_compare},
+    {"compare", "How alike two partitions, trajectories or maps are", add_compare},
     {"simulate", "Make a log with ground truth", add_simulate},
 };
 
