@@ -43,6 +43,8 @@ class Export {
     write("topology.dot", topology_dot(map_));
   }
 
+  void pose_graph() const { write("pose_graph.g2o", pose_graph_g2o(map_)); }
+
   void map() {
     write("map.pgm", to_pgm(image()));
     write("map.yaml", to_map_yaml(image(), "map.pgm"));
@@ -144,6 +146,8 @@ const std::vector<Part>& parts() {
          return Files{"topology.json", "topology.graphml", "topology.dot"};
        },
        [](Export& work) { work.topology(); }},
+      {"pose_graph", [](const HybridMap&) { return Files{"pose_graph.g2o"}; },
+       [](Export& work) { work.pose_graph(); }},
       {"map",
        [](const HybridMap&) {
          return Files{"map.pgm", "map.yaml"};

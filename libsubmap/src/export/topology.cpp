@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "hmt/graph/g2o_file.hpp"
 #include "hmt/submap/export/map_summary.hpp"
+#include "hmt/submap/link/condense_links.hpp"
 #include "number_text.hpp"
 
 namespace hmt::submap {
@@ -150,6 +152,13 @@ std::string loops_jsonl(const HybridMap& map) {
     lines += json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   }
   return lines;
+}
+
+std::string pose_graph_g2o(const HybridMap& map) {
+  graph::G2oFile file;
+  file.graph = submap_graph(map.track.space, map.T_world_submap, map.links);
+  for (size_t k = 0; k < file.graph.poses.size(); ++k) file.ids.push_back(static_cast<int64_t>(k));
+  return graph::format_g2o(file);
 }
 
 }  // namespace hmt::submap

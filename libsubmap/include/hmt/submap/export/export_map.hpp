@@ -24,6 +24,7 @@ struct ExportOptions {
 ///   trajectory  trajectory.tum: T_world_robot of every observation, with the log's own stamps
 ///   partition   partition.csv
 ///   topology    topology.json, topology.graphml, topology.dot
+///   pose_graph  pose_graph.g2o: submaps and links
 ///   map         map.pgm, map.yaml: occupancy in the world, planar maps only
 ///   submaps     submaps/NNNN.ot, .bt, .ply, .pcd: OctoMap and cloud of each, in its own frame
 ///   loops       loops.jsonl: every loop-closure candidate

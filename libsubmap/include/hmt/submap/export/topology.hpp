@@ -22,5 +22,7 @@ std::string topology_dot(const HybridMap& map);
 std::string partition_csv(const HybridMap& map);
 /// One JSON object a line for every loop-closure candidate.
 std::string loops_jsonl(const HybridMap& map);
+/// The submaps and links as a pose graph in the format of g2o.
+std::string pose_graph_g2o(const HybridMap& map);
 
 }  // namespace hmt::submap
