@@ -7,6 +7,8 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "log_text.hpp"
+#include "map_info.hpp"
+#include "trajectory_input.hpp"
 
 namespace hmt::apps {
 namespace {
@@ -24,8 +26,10 @@ int log_info(const std::string& path, const Globals& globals) {
 
 Action add_info(CLI::App& command) {
   const auto path = std::make_shared<std::string>();  // shared by the parser and the action
-  command.add_option("LOG", *path, "Log to look into")->required();
-  return [path](const Globals& globals) { return log_info(*path, globals); };
+  command.add_option("LOG|MAP", *path, "Log or map file to look into")->required();
+  return [path](const Globals& globals) {
+    return is_map_file(*path) ? map_info(*path, globals) : log_info(*path, globals);
+  };
 }
 
 }  // namespace hmt::apps

@@ -22,7 +22,7 @@ const std::vector<Command> kCommands = {
     {"export", "Write the files of a map: submaps, topology, trajectory, image, report",
      add_export},
     {"check", "Examine logs: clocks, gaps, geometry, odometry, damage", add_check},
-    {"info", "What is in a log", add_info},
+    {"info", "What is in a log or a map", add_info},
     {"evaluate", "Errors of a map or trajectory against truth", add_evaluate},
     {"partition", "Cut an overlap graph into groups by recursive spectral min-Ncut", add_partition},
     {"optimize", "Optimize a pose graph in g2o format", add_optimize},

@@ -57,12 +57,12 @@ void add_map(const submap::HybridMap& map, Json& json) {
 
 std::string map_text(const submap::HybridMap& map) {
   std::string text = fmt::format(
-      "observations      {}\nkeyframes         {}\nconstraints       {}\nsubmaps           {}\n"
-      "links             {}\ninformation loss  {:.4f}\n",
+      "observations       {}\nkeyframes          {}\nconstraints        {}\nsubmaps            {}\n"
+      "links              {}\ninformation loss   {:.4f}\n",
       map.track.observations.size(), map.track.keyframes.size(), map.constraints.size(),
       map.submaps.size(), map.links.size(), map.information_loss);
   for (const auto& [verdict, count] : submap::count_verdicts(map))
-    text += fmt::format("loops {:<12}{}\n", verdict, count);
+    text += fmt::format("loops {:<13}{}\n", verdict, count);
   text += "submap  keyframes  observations  first stamp      extent\n";
   for (const submap::SubmapSummary& s : submap::summarize_submaps(map))
     text += fmt::format("{:>6}  {:>9}  {:>12}  {:<15.2f}  {:.1f} x {:.1f} x {:.1f} m\n", s.id,
@@ -88,7 +88,7 @@ int map_info(const std::string& path, const Globals& globals) {
                {"program_version", origin.program_version},
                {"complete", complete},
                {"stages", file.stages()}};
-  std::string text = fmt::format("{}: {}, made from {} by hmtmap {}\nstages            {}\n", path,
+  std::string text = fmt::format("{}: {}, made from {} by hmtmap {}\nstages             {}\n", path,
                                  complete ? "map" : "unfinished map", origin.log_path,
                                  origin.program_version, fmt::join(file.stages(), ", "));
   if (complete) {
@@ -100,7 +100,7 @@ int map_info(const std::string& path, const Globals& globals) {
   }
   const Json options = Json::parse(origin.options_json, nullptr, false);
   json["options"] = options.is_discarded() ? Json(nullptr) : options;
-  text += fmt::format("options           {}\n", origin.options_json);
+  text += fmt::format("options            {}\n", origin.options_json);
   print_result(globals, json, text);
   return kDone;
 }

@@ -73,7 +73,7 @@ TEST(ExportMap, WritesEveryFileThatItReturns) {
   EXPECT_THAT(written.at("topology.dot"), HasSubstr("s0 -- s1 [label=\"0.200\", color=red]"));
   EXPECT_THAT(written.at("topology.graphml"), HasSubstr("<edge source=\"s0\" target=\"s1\">"));
   EXPECT_THAT(written.at("topology.json"), HasSubstr("\"information_loss\": 0.03"));
-  EXPECT_THAT(written.at("pose_graph.g2o"), HasSubstr("EDGE_SE2 0 1 2 0 1.5"));
+  EXPECT_THAT(written.at("pose_graph.g2o"), HasSubstr("EDGE_SE2 0 1 2 0 1.4999"));
   EXPECT_THAT(written.at("loops.jsonl"), HasSubstr("\"verdict\":\"ambiguous\""));
   EXPECT_THAT(written.at("report.html"), HasSubstr("logs/sample.clf"));
 }
