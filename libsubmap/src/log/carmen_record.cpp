@@ -14,6 +14,11 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 /// More than any planar scanner has; a greater count is damage.
 constexpr int64_t kMaxBeams = 100000;
+/// No robot drives and no scanner sees farther; greater numbers are damage, and their squares and
+/// sines would be no numbers.
+constexpr double kFarthestPose = 1e8;   // metres
+constexpr double kFarthestRange = 1e4;  // metres
+constexpr double kLargestAngle = 1e3;   // radians
 
 int64_t take_count(std::string_view& fields, const char* name) {
   const std::string_view field = take_field(fields);
@@ -32,10 +37,16 @@ std::vector<double> take_numbers(std::string_view& fields, const char* name) {
   return values;
 }
 
+double take_below(std::string_view& fields, const char* name, double limit) {
+  const double value = take_finite(fields, name);
+  if (std::abs(value) > limit) throw std::invalid_argument(std::string(name) + " is far too large");
+  return value;
+}
+
 graph::Pose take_pose(std::string_view& fields, const char* name) {
-  const double x = take_finite(fields, name);
-  const double y = take_finite(fields, name);
-  return graph::Pose::planar(x, y, take_finite(fields, name));
+  const double x = take_below(fields, name, kFarthestPose);
+  const double y = take_below(fields, name, kFarthestPose);
+  return graph::Pose::planar(x, y, take_below(fields, name, kLargestAngle));
 }
 
 void take_stamp(CarmenScan& scan, std::string_view& fields) {
@@ -81,10 +92,10 @@ CarmenScan parse_flaser(std::string_view fields) {
 CarmenScan parse_robotlaser(std::string_view fields) {
   CarmenScan scan;
   take_number(fields, "laser type");
-  scan.start_angle_rad = take_finite(fields, "start angle");
-  const double field_of_view_rad = take_finite(fields, "field of view");
-  scan.beam_step_rad = take_finite(fields, "angular resolution");
-  scan.max_range_m = std::max(0.0, take_finite(fields, "maximum range"));
+  scan.start_angle_rad = take_below(fields, "start angle", kLargestAngle);
+  const double field_of_view_rad = take_below(fields, "field of view", kLargestAngle);
+  scan.beam_step_rad = take_below(fields, "angular resolution", kLargestAngle);
+  scan.max_range_m = std::max(0.0, take_below(fields, "maximum range", kFarthestRange));
   take_number(fields, "accuracy");
   take_number(fields, "remission mode");
   scan.ranges_m = take_numbers(fields, "range");
@@ -103,7 +114,7 @@ std::optional<double> parse_max_range_param(std::string_view fields) {
   const std::string_view name = take_field(fields);
   if (name != "robot_front_laser_max" && name != "robot_frontlaser_max") return std::nullopt;
   const auto value = to_number(take_field(fields));
-  return value && std::isfinite(*value) && *value > 0 ? value : std::nullopt;
+  return value && *value > 0 && *value <= kFarthestRange ? value : std::nullopt;
 }
 
 }  // namespace hmt::submap

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <random>
 #include <sstream>
 
 #include "hmt/submap/log/log_reader.hpp"
@@ -255,6 +256,38 @@ TEST_F(CarmenReader, KeepsAScanWithoutBeams) {
   ASSERT_EQ(log.observations.size(), 1u);
   EXPECT_TRUE(log.observations[0].readings[0].points_sensor.empty());
   EXPECT_EQ(log.report.notes.at("scans without beams"), 1);
+}
+
+TEST_F(CarmenReader, SurvivesRandomDamage) {
+  std::string good = "PARAM robot_front_laser_max 50 1 h 1\n";
+  for (int i = 0; i < 4; ++i) {
+    good += flaser("1 2 3.5", i);
+    good += "RLASER 2 1 1  1 0 3.1  1 0 0  5.5 h 1\n";
+    good +=
+        "ROBOTLASER1 0 -1.57 3.14 0.785 80 0.1 0  5 1 2 3 4 5  0  1 2 0 1 2 0 0 0 0 0 0 5 h 1\n";
+  }
+  std::mt19937 random(7);
+  int read_whole = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::string text = good;
+    for (int change = 0; change < 4; ++change)
+      text[random() % text.size()] = "0123456789-+.e \n\t#nNaA\xff"[random() % 23];
+    text.resize(text.size() - random() % 20);
+    try {
+      for (const Observation& observation : read(text).observations) {
+        ASSERT_TRUE(observation.T_odom_robot.translation.allFinite());
+        for (const Reading& reading : observation.readings) {
+          ASSERT_TRUE(reading.T_robot_sensor.translation.allFinite());
+          for (const Eigen::Vector3f& p_sensor : reading.points_sensor)
+            ASSERT_TRUE(p_sensor.allFinite());
+        }
+      }
+      ++read_whole;
+    } catch (const InputError&) {
+      // nothing usable is left
+    }
+  }
+  EXPECT_GT(read_whole, 380);
 }
 
 TEST_F(CarmenReader, RefusesWhatIsNoLog) {
