@@ -21,6 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    throw InputError(folder.string() + ": cannot be made a folder" +
+                     (error ? ": " + error.message() : "") + "; give another -o");
+}
+
 /// One export: what all its parts draw on.
 class Export {
  public:
@@ -51,7 +59,7 @@ class Export {
   }
 
   void submaps() const {
-    fs::create_directories(folder_ / "submaps");
+    make_folder(folder_ / "submaps");
     size_t done = 0;
     bool stopped = false;
     std::mutex mutex;
@@ -182,12 +190,9 @@ std::vector<const Part*> chosen_parts(const ExportOptions& options, bool planar)
 }
 
 void prepare_folder(const fs::path& folder, const std::vector<std::string>& files, bool overwrite) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw InputError(folder.string() + ": cannot be made a folder" +
-                     (error ? ": " + error.message() : "") + "; give another -o");
+  make_folder(folder);
   if (overwrite) return;
+  std::error_code error;
   for (const std::string& file : files)
     if (fs::exists(folder / file, error))
       throw InputError((folder / file).string() +

@@ -183,6 +183,57 @@ TEST(MapFile, KeepsOctreeAndEstimate) {
   EXPECT_THAT(error_of([&] { file.load_octree(0); }), HasSubstr("octree of submap 0"));
 }
 
+TEST(MapFile, IsCompleteOnceEverySubmapHasAnOctree) {
+  const TemporaryFolder folder;
+  write_sample_map(folder / "a.hmt");
+  MapFile file =
+      MapFile::open_for_run(folder / "a.hmt", sample_origin(), MapFile::Existing::resume);
+  for (int submap = 0; submap < 2; ++submap) {
+    EXPECT_FALSE(file.complete());
+    StageWriter stage = file.begin("octree" + std::to_string(submap));
+    stage.put_octree(submap, "ot");
+    stage.commit();
+  }
+  EXPECT_TRUE(file.complete());
+}
+
+/// What load_map says of the sample map after a change.
+std::string error_of_map(const std::function<void(StageWriter&)>& change) {
+  const TemporaryFolder folder;
+  write_sample_map(folder / "a.hmt");
+  MapFile file =
+      MapFile::open_for_run(folder / "a.hmt", sample_origin(), MapFile::Existing::resume);
+  StageWriter stage = file.begin("change");
+  change(stage);
+  stage.commit();
+  return error_of([&] { file.load_map(); });
+}
+
+TEST(MapFile, RefusesPartsThatDoNotFitTogether) {
+  const HybridMap map = sample_map();
+  const auto links_with = [&](auto change) {
+    return [&, change](StageWriter& stage) {
+      std::vector<Link> links = map.links;
+      change(links[0]);
+      stage.put_links(links);
+    };
+  };
+  EXPECT_EQ(error_of_map([](StageWriter&) {}), "");
+  EXPECT_THAT(error_of_map(links_with([](Link& link) { link.b = 2; })), HasSubstr("link"));
+  EXPECT_THAT(error_of_map(links_with([](Link& link) { link.evidence = {-1}; })),
+              HasSubstr("evidence"));
+  EXPECT_THAT(error_of_map([&](StageWriter& stage) {
+                Submap submap = map.submaps[1];
+                submap.keyframes = {0};
+                stage.put_submap(submap);
+              }),
+              HasSubstr("keyframe of another one"));
+  EXPECT_THAT(error_of_map([&](StageWriter& stage) { stage.put_constraints({}); }),
+              HasSubstr("do not fit together"));
+  EXPECT_THAT(error_of_map([&](StageWriter& stage) { stage.put_solution({}); }),
+              HasSubstr("one pose a submap"));
+}
+
 TEST(MapFile, RefusesAnotherLogOrOtherOptions) {
   const TemporaryFolder folder;
   const auto path = folder / "a.hmt";
