@@ -56,12 +56,8 @@ class Search {
   std::vector<Node> roots() const;
   void descend(const Node& node);
 
-  int bound(const Node& node) const {
-    int sum = 0;
-    for (const Eigen::Vector2i& c : headings_[static_cast<size_t>(node.heading)].cells)
-      sum += map_.bound(node.level, c.x() + node.x, c.y() + node.y);
-    return sum;
-  }
+  /// Zero as soon as it is clear that the node cannot beat `floor`.
+  int bound(const Node& node, int floor) const;
 
   /// Whether all translations of the node are excluded.
   bool is_excluded(const Node& node) const {
@@ -117,12 +113,25 @@ std::vector<Node> Search::roots() const {
     for (int y = -reach_y_; y <= reach_y_; y += step)
       for (int x = -reach_x_; x <= reach_x_; x += step) {
         Node node{0, heading, level, x, y};
-        node.score = bound(node);
-        nodes.push_back(node);
+        node.score = bound(node, best_.score);
+        if (node.score > best_.score) nodes.push_back(node);
       }
   std::stable_sort(nodes.begin(), nodes.end(),
                    [](const Node& l, const Node& r) { return l.score > r.score; });
   return nodes;
+}
+
+int Search::bound(const Node& node, int floor) const {
+  constexpr size_t kBlock = 32;
+  const auto& cells = headings_[static_cast<size_t>(node.heading)].cells;
+  int sum = 0;
+  for (size_t first = 0; first < cells.size(); first += kBlock) {
+    const size_t last = std::min(cells.size(), first + kBlock);
+    for (size_t i = first; i < last; ++i)
+      sum += map_.bound(node.level, cells[i].x() + node.x, cells[i].y() + node.y);
+    if (sum + 255 * static_cast<int>(cells.size() - last) <= floor) return 0;
+  }
+  return sum;
 }
 
 void Search::descend(const Node& node) {
@@ -138,8 +147,8 @@ void Search::descend(const Node& node) {
     for (const int dx : {0, half}) {
       Node child{0, node.heading, node.level - 1, node.x + dx, node.y + dy};
       if (child.x > reach_x_ || child.y > reach_y_) continue;
-      child.score = bound(child);
-      children.push_back(child);
+      child.score = bound(child, best_.score);
+      if (child.score > best_.score) children.push_back(child);
     }
   std::stable_sort(children.begin(), children.end(),
                    [](const Node& l, const Node& r) { return l.score > r.score; });

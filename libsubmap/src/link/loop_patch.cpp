@@ -21,14 +21,6 @@ Eigen::Vector2d planar(const Pose& T, const Eigen::Vector2d& p) {
   return (T * Eigen::Vector3d(p.x(), p.y(), 0.0)).head<2>();
 }
 
-void append_point(Surface& to, const Surface& from, size_t i, const Pose& T_to_from) {
-  to.points_robot.push_back(T_to_from * from.points_robot[i]);
-  to.normals_robot.push_back(T_to_from.rotation * from.normals_robot[i]);
-  to.sigma_m.push_back(from.sigma_m[i]);
-  to.normal_sigma_rad.push_back(from.normal_sigma_rad[i]);
-  to.spacing_m.push_back(from.spacing_m[i]);
-}
-
 }  // namespace
 
 std::vector<double> path_lengths(std::span<const Pose> T_world_keyframe) {
@@ -68,35 +60,6 @@ LoopPatch make_patch(const LoopProblem& problem, std::span<const double> path_m,
   }
   patch.points_center = thin_points(points, kPatchCellM);
   return patch;
-}
-
-Surface patch_surface(const LoopProblem& problem, const LoopPatch& patch, size_t most_points) {
-  std::vector<Surface> surfaces;
-  size_t total = 0;
-  for (const int k : patch.keyframes) {
-    const Keyframe& keyframe = problem.keyframes[static_cast<size_t>(k)];
-    surfaces.push_back(make_surface(*problem.observations->load(keyframe.observation)));
-    total += surfaces.back().size();
-  }
-  const size_t stride = std::max<size_t>(1, (total + most_points - 1) / most_points);
-  Surface all;
-  size_t next = 0;
-  for (size_t i = 0; i < surfaces.size(); ++i)
-    for (size_t j = 0; j < surfaces[i].size(); ++j)
-      if (next++ % stride == 0) append_point(all, surfaces[i], j, patch.T_center_keyframe[i]);
-  return all;
-}
-
-RegistrationTarget patch_target(const LoopProblem& problem, const LoopPatch& patch) {
-  std::vector<Surface> surfaces;
-  for (const int k : patch.keyframes) {
-    const Keyframe& keyframe = problem.keyframes[static_cast<size_t>(k)];
-    surfaces.push_back(make_surface(*problem.observations->load(keyframe.observation)));
-  }
-  std::vector<RegistrationTarget::Placed> placed;
-  for (size_t i = 0; i < surfaces.size(); ++i)
-    placed.push_back({patch.T_center_keyframe[i], &surfaces[i]});
-  return RegistrationTarget(placed);
 }
 
 double seen_through_share(const LoopPatch& seer, std::span<const PlanarScan> scans,

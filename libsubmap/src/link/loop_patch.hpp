@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "hmt/submap/registration/register_surface.hpp"
 #include "loop_scans.hpp"
 
 namespace hmt::submap {
@@ -27,13 +26,6 @@ std::pair<int, int> patch_range(std::span<const double> path_m, int center, doub
 
 LoopPatch make_patch(const LoopProblem& problem, std::span<const double> path_m,
                      std::span<const PlanarScan> scans, int center, double reach_m);
-
-/// The surfaces of all observations of a patch in the frame of its center, every n-th point, so
-/// that there are at most `most_points`.
-Surface patch_surface(const LoopProblem& problem, const LoopPatch& patch, size_t most_points);
-
-/// The surfaces of all observations of a patch in the frame of its center, to register onto.
-RegistrationTarget patch_target(const LoopProblem& problem, const LoopPatch& patch);
 
 /// Share of the points of `seen` that lie where `seer` looked through, when the frame of `seen`
 /// stands at T_seer_seen (centers).

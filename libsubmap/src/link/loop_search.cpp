@@ -7,8 +7,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <tuple>
 
-#include "loop_verify.hpp"
+#include "loop_match.hpp"
+#include "loop_rivals.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -51,6 +53,20 @@ std::vector<PlanarScan> load_scans(const LoopProblem& problem, const Run& run) {
   return scans;
 }
 
+/// Two maps may have given the same pair; the better score stays.
+std::vector<LoopCandidate> in_order(std::vector<LoopCandidate> candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const LoopCandidate& l, const LoopCandidate& r) {
+                     return std::tuple(l.a, l.b, l.verdict, -l.score) <
+                            std::tuple(r.a, r.b, r.verdict, -r.score);
+                   });
+  const auto same = [](const LoopCandidate& l, const LoopCandidate& r) {
+    return l.a == r.a && l.b == r.b;
+  };
+  candidates.erase(std::unique(candidates.begin(), candidates.end(), same), candidates.end());
+  return candidates;
+}
+
 }  // namespace
 
 std::vector<LoopCandidate> search_loops(const LoopProblem& problem, const Run& run) {
@@ -77,7 +93,8 @@ std::vector<LoopCandidate> search_loops(const LoopProblem& problem, const Run& r
     });
     run.report({"loops", static_cast<double>(last), static_cast<double>(groups.size())});
   }
-  return candidates;
+  refuse_rivals(problem, candidates);
+  return in_order(std::move(candidates));
 }
 
 }  // namespace hmt::submap

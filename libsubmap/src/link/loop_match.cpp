@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The hmtmap authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_verify.hpp"
+#include "loop_match.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +30,9 @@ constexpr double kSameMatchRad = 10.0 * kDegree;
 
 constexpr double kLeastScore = 0.35;
 constexpr double kMostSecondShare = 0.85;
+/// Lower second scores are not told apart: they do not matter and would cost time.
+constexpr double kSecondFloor = 0.7;
 constexpr double kMostConflict = 0.10;
-constexpr double kLeastInliers = 0.5;
-constexpr double kMostShiftM = 0.4;
-constexpr double kMostTurnRad = 4.0 * kDegree;
-constexpr size_t kMostSourcePoints = 500;
-
 std::vector<Eigen::Vector2f> query_points(const LoopPatch& query) {
   std::vector<Eigen::Vector2f> near;
   for (const Eigen::Vector2f& p : query.points_center)
@@ -67,11 +64,6 @@ double mahalanobis(const LoopProposal& proposal, const Pose& T_a_b) {
   return std::sqrt(e.dot(covariance.ldlt().solve(e)));
 }
 
-bool near(const Pose& left, const Pose& right) {
-  return (left.translation - right.translation).norm() < kMostShiftM &&
-         std::abs(graph::wrap_angle(left.yaw_rad() - right.yaw_rad())) < kMostTurnRad;
-}
-
 template <typename... Numbers>
 std::string text(const char* format, Numbers... numbers) {
   char buffer[200];
@@ -85,72 +77,77 @@ LoopCandidate refuse(LoopCandidate candidate, LoopVerdict verdict, std::string r
   return candidate;
 }
 
-}  // namespace
-
-LoopMap::LoopMap(const LoopProblem& problem, LoopPatch patch)
-    : problem_(problem),
-      patch_(std::move(patch)),
-      grid_(patch_.points_center, kCellM, kGridSigmaM, kLevels) {}
-
-const RegistrationTarget& LoopMap::target() {
-  if (!target_) target_.emplace(patch_target(problem_, patch_));
-  return *target_;
-}
-
-LoopCandidate examine_loop(const LoopProblem& problem, std::span<const PlanarScan> scans,
-                           LoopMap& map, const LoopPatch& query, const LoopProposal& proposal) {
+LoopCandidate start(const LoopProblem& problem, const LoopProposal& proposal) {
   LoopCandidate candidate;
   candidate.a = proposal.a;
   candidate.b = proposal.b;
   candidate.submap_a = problem.submap[static_cast<size_t>(proposal.a)];
   candidate.submap_b = problem.submap[static_cast<size_t>(proposal.b)];
   candidate.T_a_b = proposal.T_a_b;
+  return candidate;
+}
+
+/// Share of the points that one visit saw and the other looked through, the larger of both ways.
+double free_space_conflict(std::span<const PlanarScan> scans, const LoopPatch& map,
+                           const LoopPatch& query, const Pose& T_map_query) {
+  return std::max(seen_through_share(map, scans, query, T_map_query),
+                  seen_through_share(query, scans, map, T_map_query.inverse()));
+}
+
+void take(const LoopProblem& problem, const LoopConfirmation& confirmation,
+          LoopCandidate& candidate) {
+  candidate.a = confirmation.a;
+  candidate.submap_a = problem.submap[static_cast<size_t>(confirmation.a)];
+  candidate.T_a_b = confirmation.T_a_b;
+  candidate.information = confirmation.information;
+  candidate.verdict = LoopVerdict::accepted;
+  candidate.reason = text("%.0f %% of the points meet the map, %.0f %% at the best other place",
+                          100 * candidate.score, 100 * candidate.second_score);
+}
+
+}  // namespace
+
+LoopMap::LoopMap(const LoopProblem& problem, LoopPatch patch)
+    : patch_(std::move(patch)),
+      grid_(patch_.points_center, kCellM, kGridSigmaM, kLevels),
+      confirmer_(problem, patch_) {}
+
+LoopCandidate examine_loop(const LoopProblem& problem, std::span<const PlanarScan> scans,
+                           LoopMap& map, const LoopPatch& query, const LoopProposal& proposal) {
+  LoopCandidate candidate = start(problem, proposal);
   const std::vector<Eigen::Vector2f> points = query_points(query);
   const CorrelativeWindow window = window_of(proposal);
-  const auto best = correlative_search(map.grid(), points, window, 0.5 * kLeastScore);
+  const auto best = correlative_search(map.grid(), points, window, kLeastScore);
   if (!best)
-    return refuse(candidate, LoopVerdict::low_score, "nothing in the window resembles the query");
+    return refuse(candidate, LoopVerdict::low_score,
+                  text("nowhere do %.0f %% of the points meet the map", 100 * kLeastScore));
   candidate.T_a_b = best->T_map_query;
   candidate.score = best->score;
   candidate.mahalanobis = mahalanobis(proposal, candidate.T_a_b);
-  if (best->score < kLeastScore)
-    return refuse(candidate, LoopVerdict::low_score,
-                  text("only %.0f %% of the points meet a surface of the map", 100 * best->score));
-  const auto second =
-      correlative_search(map.grid(), points, window, 0.5 * best->score,
-                         CorrelativeExclusion{best->T_map_query, kSameMatchM, kSameMatchRad});
-  candidate.second_score = second ? second->score : 0.0;
-  candidate.free_space_conflict =
-      std::max(seen_through_share(map.patch(), scans, query, candidate.T_a_b),
-               seen_through_share(query, scans, map.patch(), candidate.T_a_b.inverse()));
-  if (candidate.second_score > kMostSecondShare * candidate.score)
+  if (candidate.mahalanobis > kGate)
     return refuse(
-        candidate, LoopVerdict::ambiguous,
-        text("another match scores %.2f against %.2f", candidate.second_score, candidate.score));
+        candidate, LoopVerdict::unconfirmed,
+        text("the best match lies %.1f sigma from the prediction", candidate.mahalanobis));
+  const double floor = kSecondFloor * best->score;
+  const auto second =
+      correlative_search(map.grid(), points, window, floor,
+                         CorrelativeExclusion{best->T_map_query, kSameMatchM, kSameMatchRad});
+  candidate.second_score = second ? second->score : floor;
+  if (candidate.second_score > kMostSecondShare * candidate.score)
+    return refuse(candidate, LoopVerdict::ambiguous,
+                  text("%.0f %% of the points meet the map, but %.0f %% do so elsewhere",
+                       100 * candidate.score, 100 * candidate.second_score));
+  candidate.free_space_conflict = free_space_conflict(scans, map.patch(), query, candidate.T_a_b);
   if (candidate.free_space_conflict > kMostConflict)
     return refuse(candidate, LoopVerdict::contradicted,
                   text("%.0f %% of the points lie where the other visit saw through",
                        100 * candidate.free_space_conflict));
-
-  RegistrationOptions options;
-  options.space = problem.space;
-  const Registration forward = register_surface(patch_surface(problem, query, kMostSourcePoints),
-                                                map.target(), candidate.T_a_b, options);
-  candidate.inlier_fraction = forward.inlier_fraction;
-  candidate.rmse_m = forward.rmse_m;
-  if (forward.termination == Registration::Termination::too_few_points)
-    return refuse(candidate, LoopVerdict::unconfirmed, "too few points to register");
-  if (!near(forward.T_target_source, candidate.T_a_b))
-    return refuse(candidate, LoopVerdict::unconfirmed, "the registration left the match");
-  if (forward.inlier_fraction < kLeastInliers)
-    return refuse(candidate, LoopVerdict::unconfirmed,
-                  text("the registration explains only %.0f %%", 100 * forward.inlier_fraction));
-  candidate.T_a_b = forward.T_target_source;
-  candidate.information = forward.information;
-  candidate.mahalanobis = mahalanobis(proposal, candidate.T_a_b);
-  candidate.verdict = LoopVerdict::accepted;
-  candidate.reason = text("score %.2f, second %.2f, %.0f %% inliers", candidate.score,
-                          candidate.second_score, 100 * candidate.inlier_fraction);
+  const LoopConfirmation confirmation = map.confirmer().confirm(query, candidate.T_a_b);
+  candidate.inlier_fraction = confirmation.inlier_fraction;
+  candidate.rmse_m = confirmation.rmse_m;
+  if (!confirmation.objection.empty())
+    return refuse(candidate, LoopVerdict::unconfirmed, confirmation.objection);
+  take(problem, confirmation, candidate);
   return candidate;
 }
 

@@ -2,32 +2,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-
 #include "hmt/submap/link/correlative_search.hpp"
+#include "loop_confirm.hpp"
 #include "loop_patch.hpp"
 #include "loop_proposals.hpp"
 
 namespace hmt::submap {
 
-/// The map around a place, ready to be searched by many queries.
+/// The map around a place, to be searched by many queries, one after the other.
 class LoopMap {
  public:
   LoopMap(const LoopProblem& problem, LoopPatch patch);
+  LoopMap(const LoopMap&) = delete;
+  LoopMap& operator=(const LoopMap&) = delete;
 
   const LoopPatch& patch() const { return patch_; }
   const CorrelativeGrid& grid() const { return grid_; }
-  /// Built at the first call: most maps never get that far. Not safe from several threads at once.
-  const RegistrationTarget& target();
+  LoopConfirmer& confirmer() { return confirmer_; }
 
  private:
-  const LoopProblem& problem_;
   LoopPatch patch_;
   CorrelativeGrid grid_;
-  std::optional<RegistrationTarget> target_;
+  LoopConfirmer confirmer_;
 };
 
-/// Searches the query in the map and judges the best match.
+/// Searches the query in the map and judges the best match. An accepted candidate's `a` is the
+/// keyframe of the map that stands nearest to b.
 LoopCandidate examine_loop(const LoopProblem& problem, std::span<const PlanarScan> scans,
                            LoopMap& map, const LoopPatch& query, const LoopProposal& proposal);
 

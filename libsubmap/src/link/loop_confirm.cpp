@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_confirm.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace hmt::submap {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+constexpr size_t kMostSourcePoints = 500;
+constexpr double kLeastInliers = 0.5;
+/// Of what was seen close by only a part is common: the two visits may look different ways.
+constexpr double kLeastNearInliers = 0.4;
+/// The match is on a grid of a decimetre; a registration that goes farther follows something else.
+constexpr double kMostShiftM = 0.4;
+constexpr double kMostTurnRad = 4.0 * kDegree;
+/// Keyframes around the two centers that are registered closely.
+constexpr double kSourceReachM = 1.5;
+constexpr double kTargetReachM = 2.5;
+/// A patch is bent by so much, one sigma: what the first registration cannot know better.
+constexpr double kPatchSigmaM = 0.05;
+constexpr double kPatchSigmaRad = 0.5 * kDegree;
+/// The chart of what is known in the plane.
+const Eigen::Array3i kPlanar(0, 1, 5);
+
+bool near(const Pose& left, const Pose& right) {
+  return (left.translation - right.translation).norm() < kMostShiftM &&
+         std::abs(graph::wrap_angle(left.yaw_rad() - right.yaw_rad())) < kMostTurnRad;
+}
+
+/// Covariance in the plane; directions without information get a metre or a radian.
+Eigen::Matrix3d planar_covariance(const Matrix6d& information) {
+  const Eigen::Matrix3d planar = information(kPlanar, kPlanar);
+  return (planar + Eigen::Matrix3d::Identity()).inverse();
+}
+
+Matrix6d in_space(const Eigen::Matrix3d& planar_information) {
+  Matrix6d information = Matrix6d::Zero();
+  information(kPlanar, kPlanar) = planar_information;
+  return information;
+}
+
+Eigen::Matrix3d patch_bend() {
+  const Eigen::Vector3d sigma(kPatchSigmaM, kPatchSigmaM, kPatchSigmaRad);
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+/// Index of the keyframe of the map that stands nearest and looks most alike: a radian is a metre.
+size_t nearest_keyframe(const LoopPatch& map, const Pose& T_map_query) {
+  size_t nearest = 0;
+  double least = 0;
+  for (size_t i = 0; i < map.keyframes.size(); ++i) {
+    const Pose T = graph::relative_pose(map.T_center_keyframe[i], T_map_query);
+    const double cost = T.translation.norm() + std::abs(T.yaw_rad());
+    if (i == 0 || cost < least) {
+      nearest = i;
+      least = cost;
+    }
+  }
+  return nearest;
+}
+
+bool agree(const Registration& forward, const Registration& backward) {
+  const Pose T_backward = backward.T_target_source.inverse();
+  const Eigen::Vector3d d = graph::boxminus(T_backward, forward.T_target_source)(kPlanar);
+  const Eigen::Matrix3d covariance = planar_covariance(forward.information) +
+                                     planar_covariance(backward.information) + patch_bend();
+  // 99.7 % of chi2 with three degrees of freedom.
+  return d.dot(covariance.inverse() * d) < 13.9;
+}
+
+std::string percent(const char* format, double share) {
+  char buffer[120];
+  std::snprintf(buffer, sizeof buffer, format, 100.0 * share);
+  return buffer;
+}
+
+/// The close registration; the confirmation is left as it is where too little is common.
+void refine(const PatchSurfaces& map, const PatchSurfaces& query, const Pose& T_map_a,
+            RegistrationOptions options, LoopConfirmation& confirmation) {
+  const RegistrationTarget target_a = make_target(surfaces_around(map, T_map_a, kTargetReachM));
+  const RegistrationTarget target_b = make_target(surfaces_around(query, Pose{}, kTargetReachM));
+  const Surface source_a =
+      merged_surface(surfaces_around(map, T_map_a, kSourceReachM), kMostSourcePoints);
+  const Surface source_b =
+      merged_surface(surfaces_around(query, Pose{}, kSourceReachM), kMostSourcePoints);
+  options.prior = PosePrior{confirmation.T_a_b, confirmation.information};
+  const Registration forward = register_surface(source_b, target_a, confirmation.T_a_b, options);
+  options.prior.reset();
+  const Registration backward =
+      register_surface(source_a, target_b, forward.T_target_source.inverse(), options);
+  if (forward.inlier_fraction < kLeastNearInliers || backward.inlier_fraction < kLeastNearInliers)
+    return;
+  if (!near(forward.T_target_source, confirmation.T_a_b) || !agree(forward, backward)) {
+    confirmation.objection = "the two ways of the close registration disagree";
+    return;
+  }
+  confirmation.T_a_b = forward.T_target_source;
+  confirmation.information += forward.information;
+}
+
+}  // namespace
+
+void LoopConfirmer::load_map() {
+  if (map_target_) return;
+  map_surfaces_ = load_surfaces(problem_, map_);
+  map_target_.emplace(make_target(map_surfaces_));
+}
+
+LoopConfirmation LoopConfirmer::confirm(const LoopPatch& query, const Pose& T_map_query) {
+  load_map();
+  const PatchSurfaces query_surfaces = load_surfaces(problem_, query);
+  RegistrationOptions options;
+  options.space = problem_.space;
+  const Registration whole = register_surface(merged_surface(query_surfaces, kMostSourcePoints),
+                                              *map_target_, T_map_query, options);
+  const size_t index = nearest_keyframe(map_, whole.T_target_source);
+  const Pose& T_map_a = map_.T_center_keyframe[index];
+  LoopConfirmation confirmation;
+  confirmation.a = map_.keyframes[index];
+  confirmation.T_a_b = graph::relative_pose(T_map_a, whole.T_target_source);
+  confirmation.inlier_fraction = whole.inlier_fraction;
+  confirmation.rmse_m = whole.rmse_m;
+  if (whole.termination == Registration::Termination::too_few_points)
+    confirmation.objection = "too few points to register";
+  else if (!near(whole.T_target_source, T_map_query))
+    confirmation.objection = "the registration left the match";
+  else if (whole.inlier_fraction < kLeastInliers)
+    confirmation.objection =
+        percent("the registration explains only %.0f %% of the points", whole.inlier_fraction);
+  if (!confirmation.objection.empty()) return confirmation;
+  const Eigen::Matrix3d covariance = planar_covariance(whole.information) + patch_bend();
+  confirmation.information = in_space(covariance.inverse());
+  refine(map_surfaces_, query_surfaces, T_map_a, options, confirmation);
+  return confirmation;
+}
+
+}  // namespace hmt::submap
