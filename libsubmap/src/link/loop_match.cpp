@@ -18,8 +18,10 @@ constexpr int kLevels = 5;
 constexpr double kQueryRangeM = 15.0;
 constexpr size_t kMostQueryPoints = 300;
 
-/// chi2 of three degrees of freedom at 99.7 %, as a distance.
-constexpr double kGate = 3.73;
+/// chi2 of three degrees of freedom as a distance: what is searched (99.7 %) and what is believed
+/// (99 %). Where places repeat themselves nothing but the prediction tells them apart.
+constexpr double kWindowGate = 3.73;
+constexpr double kBeliefGate = 3.37;
 /// What the covariance does not know: the patches' own drift, and room to see a rival match.
 constexpr double kWindowMarginM = 1.0;
 constexpr double kWindowMarginRad = 5.0 * kDegree;
@@ -47,7 +49,7 @@ CorrelativeWindow window_of(const LoopProposal& proposal) {
   const Eigen::Matrix3d R = proposal.T_a_b.rotation_matrix();
   const Eigen::Matrix3d in_a = R * proposal.covariance.topLeftCorner<3, 3>() * R.transpose();
   const auto half = [](double variance, double margin, double widest) {
-    return std::min(widest, kGate * std::sqrt(std::max(0.0, variance)) + margin);
+    return std::min(widest, kWindowGate * std::sqrt(std::max(0.0, variance)) + margin);
   };
   return {proposal.T_a_b, half(in_a(0, 0), kWindowMarginM, kWidestM),
           half(in_a(1, 1), kWindowMarginM, kWidestM),
@@ -124,7 +126,7 @@ LoopCandidate examine_loop(const LoopProblem& problem, std::span<const PlanarSca
   candidate.T_a_b = best->T_map_query;
   candidate.score = best->score;
   candidate.mahalanobis = mahalanobis(proposal, candidate.T_a_b);
-  if (candidate.mahalanobis > kGate)
+  if (candidate.mahalanobis > kBeliefGate)
     return refuse(
         candidate, LoopVerdict::unconfirmed,
         text("the best match lies %.1f sigma from the prediction", candidate.mahalanobis));

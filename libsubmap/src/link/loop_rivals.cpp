@@ -9,8 +9,9 @@
 namespace hmt::submap {
 namespace {
 
-/// Scores whose ratio is above are close.
-constexpr double kCloseScores = 0.85;
+/// A rival with less than this share of a match's score is no rival: the two maps may show
+/// different parts of what was seen.
+constexpr double kRivalShare = 0.6;
 /// What neither covariance knows: the drift within the maps.
 constexpr double kMapSigmaM = 0.15;
 constexpr double kMapSigmaRad = 0.02;
@@ -36,29 +37,27 @@ bool contradict(const LoopProblem& problem, const LoopCandidate& left, const Loo
   return d.dot(covariance.inverse() * d) > kGate2;
 }
 
-void refuse(LoopCandidate& candidate, const LoopCandidate& rival) {
-  candidate.verdict = LoopVerdict::ambiguous;
-  candidate.reason =
-      "keyframe " + std::to_string(rival.a) + " has a match for the same keyframe at another place";
+bool is_match(const LoopCandidate& candidate) {
+  return candidate.score > 0 && candidate.verdict != LoopVerdict::contradicted;
 }
 
 }  // namespace
 
 void refuse_rivals(const LoopProblem& problem, std::span<LoopCandidate> candidates) {
-  std::map<int, std::vector<size_t>> accepted;
-  for (size_t i = 0; i < candidates.size(); ++i)
-    if (candidates[i].verdict == LoopVerdict::accepted) accepted[candidates[i].b].push_back(i);
-  for (const auto& [b, indices] : accepted)
-    for (size_t i = 0; i < indices.size(); ++i)
-      for (size_t j = i + 1; j < indices.size(); ++j) {
-        LoopCandidate& left = candidates[indices[i]];
-        LoopCandidate& right = candidates[indices[j]];
-        if (!contradict(problem, left, right)) continue;
-        const bool close =
-            std::min(left.score, right.score) > kCloseScores * std::max(left.score, right.score);
-        if (close || left.score < right.score) refuse(left, right);
-        if (close || right.score <= left.score) refuse(right, left);
-      }
+  std::map<int, std::vector<LoopCandidate>> matches;
+  for (const LoopCandidate& candidate : candidates)
+    if (is_match(candidate)) matches[candidate.b].push_back(candidate);
+  for (LoopCandidate& candidate : candidates) {
+    if (candidate.verdict != LoopVerdict::accepted) continue;
+    for (const LoopCandidate& other : matches[candidate.b]) {
+      if (other.score < kRivalShare * candidate.score) continue;
+      if (!contradict(problem, candidate, other)) continue;
+      candidate.verdict = LoopVerdict::ambiguous;
+      candidate.reason =
+          "around keyframe " + std::to_string(other.a) + " there is a match at another place";
+      break;
+    }
+  }
 }
 
 }  // namespace hmt::submap

@@ -8,10 +8,10 @@
 
 namespace hmt::submap {
 
-/// A match is unique only if no other map tells another place for the same keyframe: of two
-/// accepted candidates with the same b that contradict each other, beyond the accumulated
-/// covariance between their maps, the weaker one becomes ambiguous, or both if their scores are
-/// close.
+/// A match is unique only if no other map tells another place for the same keyframe: an accepted
+/// candidate becomes ambiguous where another match of the same b, accepted or not, contradicts it
+/// beyond the accumulated covariance between the two maps and explains nearly as much. Scores on
+/// different maps are not strictly comparable, so of two rivals usually neither stays.
 void refuse_rivals(const LoopProblem& problem, std::span<LoopCandidate> candidates);
 
 }  // namespace hmt::submap
