@@ -37,8 +37,10 @@ bool contradict(const LoopProblem& problem, const LoopCandidate& left, const Loo
   return d.dot(covariance.inverse() * d) > kGate2;
 }
 
+/// What the prediction or the other's free space speaks against is no rival.
 bool is_match(const LoopCandidate& candidate) {
-  return candidate.score > 0 && candidate.verdict != LoopVerdict::contradicted;
+  return candidate.score > 0 && candidate.verdict != LoopVerdict::contradicted &&
+         candidate.mahalanobis * candidate.mahalanobis < kGate2;
 }
 
 }  // namespace
