@@ -5,6 +5,7 @@
 #include <Eigen/CholmodSupport>
 #include <Eigen/Eigenvalues>
 
+#include "openmp_guard.hpp"
 #include "pose_problem.hpp"
 
 namespace hmt::graph {
@@ -27,6 +28,7 @@ std::optional<Eigen::MatrixXd> solve_positive_definite(const Triplets& lower,
                                                        const Eigen::MatrixXd& B) {
   SparseMatrix H(B.rows(), B.rows());
   H.setFromTriplets(lower.begin(), lower.end());
+  const OpenMpGuard guard;
   Eigen::CholmodDecomposition<SparseMatrix, Eigen::Lower> cholesky;
   cholesky.cholmod().print = 0;
   cholesky.compute(H);

@@ -12,6 +12,8 @@
 #include <cmath>
 #include <deque>
 
+#include "openmp_guard.hpp"
+
 namespace hmt::graph {
 namespace {
 
@@ -87,7 +89,8 @@ class SpatialManifold final : public ceres::Manifold {
 ceres::Solver::Options solver_options(int max_iterations) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.initial_trust_region_radius = 1e12;
+  // Of 1e4 to 1e12, this took the fewest iterations on the standard graphs.
+  options.initial_trust_region_radius = 1e10;
   options.max_trust_region_radius = 1e16;
   options.max_num_iterations = max_iterations;
   options.function_tolerance = 1e-9;
@@ -175,6 +178,7 @@ SolveReport PoseProblem<Chart>::solve(const std::vector<double>& edge_weights, d
     if constexpr (Chart::kParameters != Chart::kTangent) problem.SetManifold(pose, &manifold);
     if (held_[node]) problem.SetParameterBlockConstant(pose);
   }
+  const OpenMpGuard guard;
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(max_iterations), &problem, &summary);
   SolveReport report;
