@@ -54,7 +54,8 @@ template <class Chart>
 SolveReport solve(const PoseGraph& graph, const PoseOptimizerOptions& options,
                   PoseProblem<Chart>& problem) {
   if (options.robust == RobustMethod::gnc)
-    return solve_gnc(problem, trusted_edges(graph, options), options.max_iterations);
+    return solve_gnc(graph, trusted_edges(graph, options), options.max_iterations, options.threads,
+                     problem);
   const double huber_chi2 =
       options.robust == RobustMethod::huber ? chi_squared_quantile(Chart::kTangent, 0.95) : 0.0;
   const std::vector<double> ones(graph.edges.size(), 1.0);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "consensus_growth.hpp"
 #include "hmt/graph/chi_squared.hpp"
 
 namespace hmt::graph {
@@ -35,6 +36,22 @@ std::vector<double> weights_at(const std::vector<double>& chi2, const std::vecto
   for (size_t k = 0; k < chi2.size(); ++k)
     if (!trusted[k]) weights[k] = truncated_weight(chi2[k], limit, mu);
   return weights;
+}
+
+/// Solves from surrogate to surrogate until every weight is 0 or 1; returns the iterations.
+template <class Chart>
+int graduate(PoseProblem<Chart>& problem, const std::vector<bool>& trusted, double limit,
+             int max_iterations, std::vector<double>& weights) {
+  int iterations = problem.solve(weights, 0, max_iterations).iterations;
+  std::vector<double> chi2 = problem.edge_chi2();
+  const double largest = largest_doubted(chi2, trusted);
+  if (2 * largest <= limit) return iterations;
+  for (double mu = limit / (2 * largest - limit);; mu *= kMuFactor) {
+    weights = weights_at(chi2, trusted, limit, mu);
+    if (is_binary(weights)) return iterations;
+    iterations += problem.solve(weights, 0, kIterationsPerSurrogate).iterations;
+    chi2 = problem.edge_chi2();
+  }
 }
 
 /// Solves over the inliers until no edge changes sides.
@@ -72,27 +89,27 @@ double truncated_weight(double chi2, double limit, double mu) {
 }
 
 template <class Chart>
-SolveReport solve_gnc(PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
-                      int max_iterations) {
+SolveReport solve_gnc(const PoseGraph& graph, const std::vector<bool>& trusted, int max_iterations,
+                      int threads, PoseProblem<Chart>& problem) {
   const double limit = chi_squared_quantile(Chart::kTangent, kInlierProbability);
+  const std::vector<Pose> given = problem.poses();
+  const auto consensus = grow_consensus(graph, trusted, limit, threads, problem);
   std::vector<double> weights(trusted.size(), 1.0);
-  int iterations = problem.solve(weights, 0, max_iterations).iterations;
-  std::vector<double> chi2 = problem.edge_chi2();
-  const double largest = largest_doubted(chi2, trusted);
-  if (2 * largest > limit) {
-    for (double mu = limit / (2 * largest - limit);; mu *= kMuFactor) {
-      weights = weights_at(chi2, trusted, limit, mu);
-      if (is_binary(weights)) break;
-      iterations += problem.solve(weights, 0, kIterationsPerSurrogate).iterations;
-      chi2 = problem.edge_chi2();
-    }
+  int iterations = 0;
+  if (consensus) {
+    weights.assign(consensus->begin(), consensus->end());
+  } else {
+    problem.set_poses(given);
+    iterations = graduate(problem, trusted, limit, max_iterations, weights);
   }
   SolveReport report = settle(problem, trusted, limit, max_iterations, weights);
   report.iterations += iterations;
   return report;
 }
 
-template SolveReport solve_gnc(PoseProblem<PlanarChart>&, const std::vector<bool>&, int);
-template SolveReport solve_gnc(PoseProblem<SpatialChart>&, const std::vector<bool>&, int);
+template SolveReport solve_gnc(const PoseGraph&, const std::vector<bool>&, int, int,
+                               PoseProblem<PlanarChart>&);
+template SolveReport solve_gnc(const PoseGraph&, const std::vector<bool>&, int, int,
+                               PoseProblem<SpatialChart>&);
 
 }  // namespace hmt::graph

@@ -53,4 +53,9 @@ std::vector<Start> choose_starts(const PoseGraph& graph, Initialization wanted, 
   return starts;
 }
 
+Start initial_poses(const PoseGraph& graph, Initialization wanted) {
+  check_pose_graph(graph);
+  return choose_starts(graph, wanted, 0).front();
+}
+
 }  // namespace hmt::graph

@@ -4,16 +4,9 @@
 
 #include <vector>
 
-#include "hmt/graph/pose_optimizer.hpp"
+#include "hmt/graph/pose_initialization.hpp"
 
 namespace hmt::graph {
-
-/// One start of the optimization.
-struct Start {
-  Initialization kind = Initialization::given;
-  std::vector<Pose> poses;
-  double chi2 = 0;  ///< over all edges
-};
 
 /// The start that is asked for (`best`: the one of least chi2), then `restarts` further ones. A
 /// chordal relaxation that does not exist gives way to the poses of the graph.

@@ -124,6 +124,37 @@ TEST(PoseOptimizer, GncRefusesTheFalseLoopAlone) {
   }
 }
 
+TEST(PoseOptimizer, GncWithoutTrustedEdgesRefusesTheFalseLoopAlone) {
+  PoseGraph graph = noisy_graph(Space::se2, 60, 2, 0.02, 11);
+  std::vector<bool> expected(graph.edges.size(), true);
+  graph.edges[70].T_from_to = graph.edges[70].T_from_to * Pose::planar(1, 0, 0);
+  expected[70] = false;
+  PoseOptimizerOptions options;
+  options.robust = RobustMethod::gnc;
+  options.trusted.assign(graph.edges.size(), false);
+  EXPECT_EQ(optimize(graph, options).report.inlier, expected);
+}
+
+TEST(PoseOptimizer, GncKeepsTheTrueLoopsAmongAsManyFalseOnes) {
+  for (const Space space : {Space::se2, Space::se3}) {
+    PoseGraph graph = noisy_graph(space, 200, 4, 0.02, 11);
+    std::vector<bool> expected(graph.edges.size(), true);
+    std::mt19937 generator(12);
+    for (int k = 0; k < 50; ++k) {
+      const int from = static_cast<int>(generator() % 150);
+      const int to = from + 10 + static_cast<int>(generator() % 30);
+      const Pose wrong = space == Space::se2
+                             ? Pose::planar(static_cast<int>(generator() % 40), 7, 1)
+                             : test::random_pose(generator, {9, 9, 9}, 0.5);
+      graph.edges.push_back(edge(from, to, wrong, 2500));
+      expected.push_back(false);
+    }
+    PoseOptimizerOptions options;
+    options.robust = RobustMethod::gnc;
+    EXPECT_EQ(optimize(graph, options).report.inlier, expected);
+  }
+}
+
 TEST(PoseOptimizer, GncNeverDoubtsATrustedEdge) {
   PoseOptimizerOptions options;
   options.robust = RobustMethod::gnc;

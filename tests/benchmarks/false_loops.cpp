@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "false_loops.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace hmt::benchmarks {
+namespace {
+
+using graph::Pose;
+
+double uniform(std::mt19937& generator, double low, double high) {
+  return low + (high - low) * static_cast<double>(generator()) / 4294967296.0;
+}
+
+int uniform_node(std::mt19937& generator, size_t count) {
+  return static_cast<int>(generator() % count);
+}
+
+/// Relative pose within the box of all poses and with any rotation.
+Pose random_relative_pose(const graph::PoseGraph& graph, std::mt19937& generator) {
+  Eigen::AlignedBox3d box;
+  for (const Pose& pose : graph.poses) box.extend(pose.translation);
+  const double reach = box.diagonal().norm() / 2;
+  const double pi = std::numbers::pi;
+  const auto coordinate = [&] { return uniform(generator, -reach, reach); };
+  const double x = coordinate();
+  const double y = coordinate();
+  if (graph.space == graph::Space::se2) return Pose::planar(x, y, uniform(generator, -pi, pi));
+  const double z = coordinate();
+  Eigen::Quaterniond q;
+  for (double& value : q.coeffs()) value = uniform(generator, -1, 1);
+  return {{x, y, z}, q.normalized()};
+}
+
+}  // namespace
+
+CorruptedGraph add_false_loops(const graph::PoseGraph& clean, double share, int group_size,
+                               unsigned seed) {
+  std::mt19937 generator(seed);
+  CorruptedGraph corrupted{clean, {}, std::vector<bool>(clean.edges.size(), false)};
+  std::vector<size_t> loops;
+  for (size_t k = 0; k < clean.edges.size(); ++k) {
+    corrupted.is_loop.push_back(std::abs(clean.edges[k].to - clean.edges[k].from) != 1);
+    if (corrupted.is_loop[k]) loops.push_back(k);
+  }
+  for (size_t k = loops.size(); k > 1; --k) std::swap(loops[k - 1], loops[generator() % k]);
+  loops.resize(static_cast<size_t>(std::llround(share * static_cast<double>(loops.size()))));
+  const size_t nodes = clean.poses.size();
+  int from = 0;
+  int to = 0;
+  Pose T_world_false;
+  for (size_t i = 0; i < loops.size(); ++i) {
+    const int step = static_cast<int>(i) % group_size;
+    if (step == 0) {
+      do {
+        from = uniform_node(generator, nodes - static_cast<size_t>(group_size));
+        to = uniform_node(generator, nodes - static_cast<size_t>(group_size));
+      } while (std::abs(from - to) <= 2 * group_size);
+      // Where the stretch at `to` lies in the false world, which holds for the whole group.
+      T_world_false = clean.poses[static_cast<size_t>(from)] *
+                      random_relative_pose(clean, generator) *
+                      clean.poses[static_cast<size_t>(to)].inverse();
+    }
+    graph::PoseGraphEdge& edge = corrupted.graph.edges[loops[i]];
+    edge.from = from + step;
+    edge.to = to + step;
+    edge.T_from_to = relative_pose(clean.poses[static_cast<size_t>(edge.from)],
+                                   T_world_false * clean.poses[static_cast<size_t>(edge.to)]);
+    corrupted.is_false[loops[i]] = true;
+  }
+  return corrupted;
+}
+
+}  // namespace hmt::benchmarks

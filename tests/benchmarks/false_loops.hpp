@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "hmt/graph/pose_graph.hpp"
+
+namespace hmt::benchmarks {
+
+/// A pose graph of which some loops are false, and which.
+struct CorruptedGraph {
+  graph::PoseGraph graph;
+  std::vector<bool> is_loop;   ///< one flag an edge: not between i and i+1
+  std::vector<bool> is_false;  ///< one flag an edge
+};
+
+/// Replaces `share` of the loops of `clean` by false ones with the same information: each between
+/// two random nodes and with a random relative pose within the extent of the map, or
+/// `group_size` > 1 in groups that agree with each other (the same wrong offset between two
+/// stretches of the trajectory). The poses of `clean` are taken for the truth within a group.
+CorruptedGraph add_false_loops(const graph::PoseGraph& clean, double share, int group_size,
+                               unsigned seed);
+
+}  // namespace hmt::benchmarks
