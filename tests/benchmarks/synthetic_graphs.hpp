@@ -37,8 +37,8 @@ inline graph::WeightedGraph grid(int side) {
       for (int dy = 0; dy <= 2; ++dy)
         for (int dx = dy == 0 ? 1 : -2; dx <= 2; ++dx)
           if (x + dx >= 0 && x + dx < side && y + dy < side)
-            arcs.push_back({y * side + x, (y + dy) * side + x + dx,
-                            noisy_weight(std::hypot(dx, dy), random)});
+            arcs.push_back(
+                {y * side + x, (y + dy) * side + x + dx, noisy_weight(std::hypot(dx, dy), random)});
   return {side * side, arcs};
 }
 
