@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace hmt::graph {
@@ -15,6 +16,10 @@ constexpr int kMaxPasses = 20;
 constexpr int kMaxStall = 60;
 // Relative gain below which a change is rounding.
 constexpr double kMinGain = 1e-12;
+// Up to this size looking through all nodes for the best is faster than a heap, whose entries
+// change with every move.
+constexpr size_t kMaxScanSize = 1000;
+constexpr double kNotQueued = -std::numeric_limits<double>::infinity();
 
 // cut(A)/assoc(A) + cut(B)/assoc(B); the cut between the sides is counted in both.
 double objective(const std::array<double, 2>& cut, const std::array<double, 2>& assoc) {
@@ -35,7 +40,7 @@ double measure(const CsrGraph& graph, const Sides& sides, const std::vector<doub
 class Refinement {
  public:
   Refinement(const CsrGraph& graph, Sides& sides, const std::vector<double>& outside)
-      : graph_(graph), sides_(sides), outside_(outside) {
+      : graph_(graph), sides_(sides), outside_(outside), scans_(sides.size() <= kMaxScanSize) {
     to_other_.assign(sides.size(), 0);
     for (size_t i = 0; i < sides.size(); ++i) {
       ++count_[sides[i]];
@@ -46,7 +51,6 @@ class Refinement {
       cut_[sides[i]] += to_other_[i] + outside_weight(i);
     }
     locked_.assign(sides.size(), 0);
-    key_.assign(sides.size(), 0);
   }
 
   void run() {
@@ -83,15 +87,27 @@ class Refinement {
 
   void push(size_t i) {
     key_[i] = gain(i);
+    if (scans_) return;
     queue_.push_back({key_[i], i});
     std::push_heap(queue_.begin(), queue_.end());
   }
 
-  Entry pop() {
-    std::pop_heap(queue_.begin(), queue_.end());
-    const Entry top = queue_.back();
-    queue_.pop_back();
-    return top;
+  // The queued node of the largest gain, the smallest of equals, which leaves the queue; the number
+  // of nodes where the queue is empty.
+  size_t pop() {
+    size_t best = key_.size();
+    if (scans_) {
+      const auto largest = std::max_element(key_.begin(), key_.end());
+      if (*largest > kNotQueued) best = static_cast<size_t>(largest - key_.begin());
+    }
+    while (!queue_.empty() && best == key_.size()) {
+      const auto [gain, node] = queue_.front();
+      std::pop_heap(queue_.begin(), queue_.end());
+      queue_.pop_back();
+      if (gain == key_[node]) best = node;
+    }
+    if (best < key_.size()) key_[best] = kNotQueued;
+    return best;
   }
 
   void move(size_t i) {
@@ -115,12 +131,9 @@ class Refinement {
       assoc_slope_[side] = cut_[side] * cut_slope_[side] * cut_slope_[side];
     }
     queue_.clear();
-    for (size_t i = 0; i < sides_.size(); ++i) {
-      if (to_other_[i] <= 0) continue;
-      key_[i] = gain(i);
-      queue_.push_back({key_[i], i});
-    }
-    std::make_heap(queue_.begin(), queue_.end());
+    key_.assign(sides_.size(), kNotQueued);
+    for (size_t i = 0; i < sides_.size(); ++i)
+      if (to_other_[i] > 0) push(i);
   }
 
   // Moves nodes, best first, and goes back to the best state on the way. False if that is the
@@ -130,9 +143,10 @@ class Refinement {
     double best = objective(cut_, assoc_);
     std::vector<size_t> moves;
     size_t kept = 0;
-    while (!queue_.empty() && moves.size() - kept < kMaxStall) {
-      const auto [gain, i] = pop();
-      if (locked_[i] != 0 || gain != key_[i] || count_[sides_[i]] == 1) continue;
+    while (moves.size() - kept < kMaxStall) {
+      const size_t i = pop();
+      if (i == key_.size()) break;
+      if (count_[sides_[i]] == 1) continue;
       move(i);
       locked_[i] = 1;
       moves.push_back(i);
@@ -158,9 +172,10 @@ class Refinement {
   std::array<double, 2> cut_slope_ = {0, 0};    // d objective / d cut of a side
   std::array<double, 2> assoc_slope_ = {0, 0};  // -d objective / d assoc of a side
   std::vector<double> to_other_;                // weight from the node to the other side
-  std::vector<double> key_;                     // gain under which the node was queued last
+  bool scans_;
+  std::vector<double> key_;  // gain under which the node is queued
   std::vector<uint8_t> locked_;
-  std::vector<Entry> queue_;  // heap
+  std::vector<Entry> queue_;  // heap; entries whose gain is no longer the key are void
 };
 
 }  // namespace
