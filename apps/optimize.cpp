@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "commands.hpp"
@@ -14,6 +16,7 @@
 #include "hmt/graph/g2o_file.hpp"
 #include "hmt/graph/input_error.hpp"
 #include "hmt/graph/pose_optimizer.hpp"
+#include "hmt/graph/submap_optimizer.hpp"
 
 namespace hmt::apps {
 namespace {
@@ -23,10 +26,13 @@ using Clock = std::chrono::steady_clock;
 /// Lines of a file that a warning names; the count stands beside them.
 constexpr size_t kNamedLines = 10;
 
+enum class Method { flat, submaps };
+
 struct OptimizeArguments {
   std::string input;
   std::string output;
   graph::PoseOptimizerOptions options;
+  Method method = Method::flat;
   bool force = false;
 };
 
@@ -143,6 +149,16 @@ nlohmann::ordered_json outliers_to_json(const graph::G2oFile& file,
   return outliers;
 }
 
+nlohmann::ordered_json to_json(const graph::SubmapReport& submaps) {
+  return {{"submaps", submaps.submaps},
+          {"links", submaps.links},
+          {"chi2_before_refinement", submaps.chi2_before_refinement},
+          {"partition_s", submaps.partition_s},
+          {"submaps_s", submaps.submaps_s},
+          {"links_s", submaps.links_s},
+          {"refinement_s", submaps.refinement_s}};
+}
+
 nlohmann::ordered_json to_json(const graph::G2oFile& file, const graph::PoseOptimizerReport& report,
                                double wall_s) {
   nlohmann::ordered_json json = {{"poses", file.graph.poses.size()},
@@ -187,7 +203,15 @@ int run_optimize(const OptimizeArguments& arguments, const Globals& globals) {
   bool losses = warn_about(file, run);
   graph::PoseOptimizerOptions options = arguments.options;
   options.threads = globals.threads;
-  graph::PoseOptimizerResult result = graph::optimize(file.graph, options);
+  std::optional<graph::SubmapReport> submaps;
+  graph::PoseOptimizerResult result;
+  if (arguments.method == Method::submaps) {
+    graph::SubmapOptimizerResult by_submaps = graph::optimize_by_submaps(file.graph, options);
+    result = std::move(by_submaps.result);
+    submaps = by_submaps.submaps;
+  } else {
+    result = graph::optimize(file.graph, options);
+  }
   const graph::PoseOptimizerReport& report = result.report;
   if (report.termination == graph::Termination::failed)
     throw graph::InputError(arguments.input + ": the solver failed: " + report.message);
@@ -199,7 +223,9 @@ int run_optimize(const OptimizeArguments& arguments, const Globals& globals) {
   file.graph.poses = std::move(result.poses);
   graph::write_g2o(arguments.output, file);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  print_result(globals, to_json(file, report, wall_s), to_text(file, report, wall_s));
+  nlohmann::ordered_json json = to_json(file, report, wall_s);
+  if (submaps) json["by_submaps"] = to_json(*submaps);
+  print_result(globals, json, to_text(file, report, wall_s));
   return losses ? kDoneWithLosses : kDone;
 }
 
@@ -219,6 +245,11 @@ Action add_optimize(CLI::App& command) {
       .add_option("--robust", options.robust,
                   "Edges that contradict the others: none, huber (weakened) or gnc (refused)")
       ->transform(CLI::CheckedTransformer(methods, CLI::ignore_case).description(""));
+  const std::map<std::string, Method> ways = {{"flat", Method::flat}, {"submaps", Method::submaps}};
+  command
+      .add_option("--method", arguments->method,
+                  "flat, or submaps: cut by min-Ncut, solved apart, joined, refined together")
+      ->transform(CLI::CheckedTransformer(ways, CLI::ignore_case).description(""));
   command.add_option("--restarts", options.restarts, "Further starts to solve from")
       ->check(CLI::Range(0, 1000));
   command.add_option("--max-iterations", options.max_iterations, "Upper limit of one solve")
