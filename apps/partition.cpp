@@ -14,11 +14,15 @@
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "hmt/graph/group_refinement.hpp"
 #include "hmt/graph/input_error.hpp"
 #include "hmt/graph/labels_file.hpp"
 #include "hmt/graph/matrix_market.hpp"
 #include "hmt/graph/normalized_cut.hpp"
 #include "hmt/submap/export/atomic_file.hpp"
+#include "hmt/submap/map/map_file.hpp"
+#include "partition_tables.hpp"
+#include "trajectory_input.hpp"
 
 namespace hmt::apps {
 namespace {
@@ -28,8 +32,13 @@ using Clock = std::chrono::steady_clock;
 struct PartitionArguments {
   std::string input;
   graph::PartitionOptions options;
+  PartitionMethod method = PartitionMethod::ncut;
   bool no_refine = false;
+  bool refine_groups = false;
+  bool sweep_tau = false;
+  bool compare = false;
   std::string labels_file;
+  std::string csv_file;
   bool force = false;
 };
 
@@ -38,7 +47,9 @@ double seconds_since(Clock::time_point start) {
 }
 
 graph::WeightedGraph read_overlap(const std::string& input) {
-  return graph::read_matrix_market(input);
+  if (!is_map_file(input)) return graph::read_matrix_market(input);
+  const submap::MapFile map = submap::MapFile::open(input);
+  return {static_cast<int>(map.load_track().keyframes.size()), map.load_overlap()};
 }
 
 // Asked before the work, so that a long run does not end in a refusal.
@@ -55,23 +66,19 @@ nlohmann::ordered_json to_json(const graph::Bisection& cut) {
           {"residual", cut.residual}};
 }
 
-std::vector<int> group_sizes(const graph::Labels& labels) {
-  std::vector<int> sizes;
-  for (const int label : labels) {
-    if (static_cast<size_t>(label) >= sizes.size()) sizes.resize(static_cast<size_t>(label) + 1);
-    ++sizes[static_cast<size_t>(label)];
-  }
-  return sizes;
-}
-
 int run_partition(const PartitionArguments& arguments, const Globals& globals) {
   const Clock::time_point start = Clock::now();
   refuse_to_overwrite(arguments.labels_file, arguments.force);
+  refuse_to_overwrite(arguments.csv_file, arguments.force);
   const graph::WeightedGraph overlap = read_overlap(arguments.input);
   graph::PartitionOptions options = arguments.options;
   options.refine = !arguments.no_refine;
   const Clock::time_point read = Clock::now();
-  const auto result = graph::recursive_partition(overlap, options, globals.threads);
+  if (arguments.sweep_tau) return print_tau_sweep(overlap, options, arguments.csv_file, globals);
+  if (arguments.compare) return print_method_comparison(overlap, options, globals);
+  graph::PartitionResult result = partition_by(arguments.method, overlap, options, globals.threads);
+  if (arguments.refine_groups)
+    result.labels = graph::refine_groups(overlap, result.labels, options.min_size);
   const double partition_s = seconds_since(read);
   if (!arguments.labels_file.empty())
     submap::write_file(arguments.labels_file, graph::labels_text(result.labels));
@@ -118,6 +125,29 @@ void add_method_options(CLI::App& command, PartitionArguments& arguments) {
       ->capture_default_str();
   command.add_flag("--no-refine", arguments.no_refine,
                    "Keep each cut as its threshold gives it, and try no others");
+  command.add_flag("--refine-groups", arguments.refine_groups,
+                   "Lower the k-way Ncut at the end by moving nodes between all groups; --groups "
+                   "does so without being asked");
+}
+
+void add_table_options(CLI::App& command, PartitionArguments& arguments) {
+  const std::map<std::string, PartitionMethod> methods = {{"ncut", PartitionMethod::ncut},
+                                                          {"fixed", PartitionMethod::fixed},
+                                                          {"metis", PartitionMethod::metis}};
+  command
+      .add_option("--method", arguments.method,
+                  "ncut (default), fixed (runs of consecutive nodes) or metis; the last two need "
+                  "--groups")
+      ->transform(CLI::CheckedTransformer(methods, CLI::ignore_case).description(""));
+  CLI::Option* const sweep =
+      command.add_flag("--sweep-tau", arguments.sweep_tau,
+                       "Print groups, sizes and k-way Ncut for tau = 0.05, 0.10, .. 1.50");
+  command.add_option("--csv", arguments.csv_file, "Write the table of --sweep-tau to this file")
+      ->needs(sweep);
+  command
+      .add_flag("--compare", arguments.compare,
+                "Print all methods side by side, at the number of groups of ncut")
+      ->excludes(sweep);
 }
 
 }  // namespace
@@ -125,9 +155,11 @@ void add_method_options(CLI::App& command, PartitionArguments& arguments) {
 Action add_partition(CLI::App& command) {
   const auto arguments = std::make_shared<PartitionArguments>();
   command
-      .add_option("input", arguments->input, "Weight matrix Omega: Matrix Market, plain or gzip")
+      .add_option("input", arguments->input,
+                  "A map (.hmt), or a weight matrix Omega in Matrix Market format, plain or gzip")
       ->required();
   add_method_options(command, *arguments);
+  add_table_options(command, *arguments);
   command.add_option("-o,--output", arguments->labels_file,
                      "Write the group of every node, one a line, to this file");
   command.add_flag("--force", arguments->force, "Overwrite files that exist");
