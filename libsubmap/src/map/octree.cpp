@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hmt/submap/map/octree.hpp"
 
+// Otherwise OctoMap prints from its headers in debug builds.
+#define OCTOMAP_NODEBUGOUT
 #include <octomap/OcTree.h>
 
 #include <bit>
