@@ -21,6 +21,7 @@ struct Node {
 /// The query points' cells at one heading and the guess's translation.
 struct Rotated {
   double yaw_offset_rad = 0;
+  bool excluded = false;  ///< translations near the excluded one are left out
   std::vector<Eigen::Vector2i> cells;
 };
 
@@ -61,17 +62,13 @@ class Search {
 
   /// Whether all translations of the node are excluded.
   bool is_excluded(const Node& node) const {
-    if (!excluded_) return false;
-    const Pose& T_0 = excluded_->T_map_query;
-    const int last = (1 << node.level) - 1;
-    for (const int dy : {0, last})
-      for (const int dx : {0, last}) {
-        const Pose T = pose({0, node.heading, 0, node.x + dx, node.y + dy});
-        if ((T.translation - T_0.translation).norm() >= excluded_->radius_m ||
-            std::abs(graph::wrap_angle(T.yaw_rad() - T_0.yaw_rad())) >= excluded_->angle_rad)
-          return false;
-      }
-    return true;
+    if (!excluded_ || !headings_[static_cast<size_t>(node.heading)].excluded) return false;
+    const double c = map_.cell_m();
+    const Eigen::Vector2d low =
+        (window_.T_map_query.translation - excluded_->T_map_query.translation).head<2>() +
+        c * Eigen::Vector2d(node.x, node.y);
+    const Eigen::Vector2d high = low.array() + c * ((1 << node.level) - 1);
+    return low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() < excluded_->radius_m;
   }
 
   const CorrelativeGrid& map_;
@@ -91,7 +88,11 @@ void Search::rotate(std::span<const Eigen::Vector2f> points_query) {
   const int reach = static_cast<int>(std::ceil(window_.half_yaw_rad / step_rad));
   const Eigen::Vector2d t = window_.T_map_query.translation.head<2>();
   const auto add = [&](double offset_rad) {
-    Rotated heading{offset_rad, {}};
+    Rotated heading{offset_rad, false, {}};
+    if (excluded_)
+      heading.excluded =
+          std::abs(graph::wrap_angle(window_.T_map_query.yaw_rad() + offset_rad -
+                                     excluded_->T_map_query.yaw_rad())) < excluded_->angle_rad;
     heading.cells.reserve(points_query.size());
     const Eigen::Rotation2Dd R(window_.T_map_query.yaw_rad() + offset_rad);
     for (const Eigen::Vector2f& p : points_query)

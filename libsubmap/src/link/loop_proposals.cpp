@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "loop_patch.hpp"
+#include "parallel.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -23,6 +25,10 @@ constexpr double kVisitSpacingM = 8.0;
 constexpr size_t kMostMapsPerQuery = 6;
 /// Candidates whose covariance is asked for, per query; the nearest by a bound of it.
 constexpr size_t kMostRatedPerQuery = 24;
+constexpr double kUnknownSigmaM = 1e3;
+/// Relative poses known as well as this need no search.
+constexpr double kKnownSigmaM = 0.1;
+constexpr double kKnownSigmaRad = 0.01;
 
 struct Rated {
   double mahalanobis = 0;  ///< of the gap between the sensed regions
@@ -30,28 +36,62 @@ struct Rated {
   LoopProposal proposal;
 };
 
-std::vector<int> places(std::span<const double> path_m, double spacing_m) {
-  std::vector<int> centers;
-  for (int k = 0; k < static_cast<int>(path_m.size()); ++k)
-    if (centers.empty() ||
-        path_m[static_cast<size_t>(k)] - path_m[static_cast<size_t>(centers.back())] >= spacing_m)
-      centers.push_back(k);
-  return centers;
+/// A keyframe that makes a map or a query.
+struct Place {
+  int keyframe = 0;
+  int limit = 0;       ///< last keyframe of the map, first keyframe of the query
+  double sigma_m = 0;  ///< of the position relative to the first keyframe of the log
+  Eigen::Vector3d t_world = Eigen::Vector3d::Zero();
+};
+
+std::vector<Place> places(const LoopProblem& problem, std::span<const double> path_m,
+                          double spacing_m, const std::function<int(int)>& limit, int threads) {
+  std::vector<Place> found;
+  for (int k = 0; k < static_cast<int>(path_m.size()); ++k) {
+    const auto i = static_cast<size_t>(k);
+    if (!found.empty() &&
+        path_m[i] - path_m[static_cast<size_t>(found.back().keyframe)] < spacing_m)
+      continue;
+    found.push_back({k, limit(k), 0.0, problem.T_world_keyframe[i].translation});
+  }
+  for_each_index(0, found.size(), threads, [&](size_t i) {
+    if (found[i].keyframe == 0) return;
+    const auto covariance = problem.covariance(0, found[i].keyframe);
+    // Not connected to the first keyframe: near to everything, as far as can be told.
+    found[i].sigma_m =
+        covariance ? std::sqrt(covariance->topLeftCorner<2, 2>().trace()) : kUnknownSigmaM;
+  });
+  return found;
 }
 
-/// Standard deviation of the position relative to the first keyframe, largest direction.
-std::vector<double> position_sigma(const LoopProblem& problem, std::span<const int> centers) {
-  std::vector<double> sigma_m;
-  for (const int k : centers) {
-    const auto covariance = k == 0 ? Matrix6d(Matrix6d::Zero()) : problem.covariance(0, k);
-    sigma_m.push_back(covariance ? std::sqrt(covariance->topLeftCorner<2, 2>().trace()) : -1.0);
+/// The maps before a query that it may reach, the nearest ones. The covariance of a pair is at most
+/// that of two independent positions.
+std::vector<int> nearest_maps(const LoopProblem& problem, std::span<const Place> maps,
+                              const Place& query) {
+  std::vector<std::pair<double, int>> near;
+  for (const Place& map : maps) {
+    if (map.limit >= query.limit) break;
+    const double distance_m = (map.t_world - query.t_world).norm();
+    if (distance_m > kMeetM + kGate * (map.sigma_m + query.sigma_m)) continue;
+    if (problem.already_tied && problem.already_tied(map.keyframe, query.keyframe)) continue;
+    near.emplace_back(distance_m, map.keyframe);
   }
-  return sigma_m;
+  std::sort(near.begin(), near.end());
+  std::vector<int> nearest;
+  for (const auto& [distance_m, a] : near)
+    if (nearest.size() < kMostRatedPerQuery) nearest.push_back(a);
+  return nearest;
+}
+
+/// Whether registration alone, from the prediction, finds what there is to find.
+bool is_known(const Matrix6d& covariance) {
+  return covariance.topLeftCorner<2, 2>().trace() < kKnownSigmaM * kKnownSigmaM &&
+         covariance(5, 5) < kKnownSigmaRad * kKnownSigmaRad;
 }
 
 std::optional<Rated> rate(const LoopProblem& problem, int a, int b) {
   const auto covariance = problem.covariance(a, b);
-  if (!covariance) return std::nullopt;
+  if (!covariance || is_known(*covariance)) return std::nullopt;
   Rated rated;
   rated.proposal = {a, b,
                     graph::relative_pose(problem.T_world_keyframe[static_cast<size_t>(a)],
@@ -90,35 +130,23 @@ std::vector<LoopProposal> choose(std::vector<Rated> rated, std::span<const doubl
 
 }  // namespace
 
-std::vector<LoopProposal> propose_loops(const LoopProblem& problem,
-                                        std::span<const double> path_m) {
-  const std::vector<int> maps = places(path_m, kMapSpacingM);
-  const std::vector<int> queries = places(path_m, kQuerySpacingM);
-  const std::vector<double> map_sigma = position_sigma(problem, maps);
-  const std::vector<double> query_sigma = position_sigma(problem, queries);
-  std::vector<LoopProposal> all;
-  for (size_t j = 0; j < queries.size(); ++j) {
-    const int b = queries[j];
-    const int first_b = patch_range(path_m, b, kQueryReachM).first;
-    const Eigen::Vector3d& t_b = problem.T_world_keyframe[static_cast<size_t>(b)].translation;
-    std::vector<std::pair<double, int>> near;
-    for (size_t i = 0; i < maps.size() && maps[i] < b; ++i) {
-      const double bound_m = kMeetM + kGate * (map_sigma[i] + query_sigma[j]);
-      const Eigen::Vector3d& t_a =
-          problem.T_world_keyframe[static_cast<size_t>(maps[i])].translation;
-      const double distance_m = (t_a - t_b).norm();
-      if (distance_m > bound_m) continue;
-      if (patch_range(path_m, maps[i], kMapReachM).second >= first_b) continue;
-      if (problem.already_tied && problem.already_tied(maps[i], b)) continue;
-      near.emplace_back(distance_m, maps[i]);
-    }
-    std::sort(near.begin(), near.end());
-    if (near.size() > kMostRatedPerQuery) near.resize(kMostRatedPerQuery);
+std::vector<LoopProposal> propose_loops(const LoopProblem& problem, std::span<const double> path_m,
+                                        int threads) {
+  const std::vector<Place> maps = places(
+      problem, path_m, kMapSpacingM,
+      [&](int k) { return patch_range(path_m, k, kMapReachM).second; }, threads);
+  const std::vector<Place> queries = places(
+      problem, path_m, kQuerySpacingM,
+      [&](int k) { return patch_range(path_m, k, kQueryReachM).first; }, threads);
+  std::vector<std::vector<LoopProposal>> of_query(queries.size());
+  for_each_index(0, queries.size(), threads, [&](size_t i) {
     std::vector<Rated> rated;
-    for (const auto& [distance_m, a] : near)
-      if (auto r = rate(problem, a, b)) rated.push_back(std::move(*r));
-    for (const LoopProposal& proposal : choose(std::move(rated), path_m)) all.push_back(proposal);
-  }
+    for (const int a : nearest_maps(problem, maps, queries[i]))
+      if (auto r = rate(problem, a, queries[i].keyframe)) rated.push_back(std::move(*r));
+    of_query[i] = choose(std::move(rated), path_m);
+  });
+  std::vector<LoopProposal> all;
+  for (const auto& proposals : of_query) all.insert(all.end(), proposals.begin(), proposals.end());
   std::sort(all.begin(), all.end(), [](const LoopProposal& l, const LoopProposal& r) {
     return std::pair(l.a, l.b) < std::pair(r.a, r.b);
   });

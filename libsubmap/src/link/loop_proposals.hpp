@@ -24,7 +24,9 @@ struct LoopProposal {
 
 /// Pairs of places whose sensed regions may meet within the accumulated covariance: for each place
 /// the few nearest ones of each earlier visit, as far as the track between them is not part of one
-/// of the two patches and the pair is not tied already. Ordered by (a, b).
-std::vector<LoopProposal> propose_loops(const LoopProblem& problem, std::span<const double> path_m);
+/// of the two patches and the pair is neither tied nor known well enough already. Ordered by (a,
+/// b).
+std::vector<LoopProposal> propose_loops(const LoopProblem& problem, std::span<const double> path_m,
+                                        int threads);
 
 }  // namespace hmt::submap

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hmt/submap/link/loop_search.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <tuple>
 
 #include "loop_match.hpp"
 #include "loop_rivals.hpp"
+#include "parallel.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -32,17 +29,6 @@ std::vector<MapGroup> group_by_map(std::span<const LoopProposal> proposals) {
     groups.back().last = i + 1;
   }
   return groups;
-}
-
-template <typename Task>
-void for_each_index(size_t first, size_t last, int threads, const Task& task) {
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<size_t>(first, last, 1),
-                      [&](const tbb::blocked_range<size_t>& range) {
-                        for (size_t i = range.begin(); i < range.end(); ++i) task(i);
-                      });
-  });
 }
 
 std::vector<PlanarScan> load_scans(const LoopProblem& problem, const Run& run) {
@@ -75,7 +61,7 @@ std::vector<LoopCandidate> search_loops(const LoopProblem& problem, const Run& r
     return {};
   }
   const std::vector<double> path_m = path_lengths(problem.T_world_keyframe);
-  const std::vector<LoopProposal> proposals = propose_loops(problem, path_m);
+  const std::vector<LoopProposal> proposals = propose_loops(problem, path_m, run.threads);
   if (proposals.empty()) return {};
   const std::vector<PlanarScan> scans = load_scans(problem, run);
   const std::vector<MapGroup> groups = group_by_map(proposals);

@@ -42,6 +42,12 @@ std::vector<LoopCandidate> search(const Drive& drive, const PairCovariance& cova
   return search_loops(problem, run);
 }
 
+double error_m(const Drive& drive, const LoopCandidate& c) {
+  const Pose T_a_b = graph::relative_pose(drive.truth[static_cast<size_t>(c.a)],
+                                          drive.truth[static_cast<size_t>(c.b)]);
+  return (T_a_b.translation - c.T_a_b.translation).norm();
+}
+
 int count(const std::vector<LoopCandidate>& candidates, LoopVerdict verdict) {
   return static_cast<int>(
       std::count_if(candidates.begin(), candidates.end(),
@@ -94,6 +100,65 @@ TEST(SearchLoops, RefusesToGuessThePlaceAlongACorridor) {
 TEST(SearchLoops, FindsNothingOnAStraightWay) {
   const Drive drive = test::drive(test::corridor(), {{0, 0}, {60, 0}}, {}, {.max_range_m = 15});
   EXPECT_TRUE(search(drive, growing(drive, 0.01, 0.001)).empty());
+}
+
+/// A ring of 24 m a side with the same two niches on all four outer sides.
+std::vector<Wall> symmetric_ring() {
+  std::vector<Wall> walls = {
+      {{2, 2}, {22, 2}}, {{22, 2}, {22, 22}}, {{22, 22}, {2, 22}}, {{2, 22}, {2, 2}}};
+  const std::vector<Eigen::Vector2d> side = {{0, 0},  {6, 0},   {6, -1},  {8, -1}, {8, 0},
+                                             {16, 0}, {16, -1}, {18, -1}, {18, 0}, {24, 0}};
+  const Eigen::Vector2d center(12, 12);
+  for (int turn = 0; turn < 4; ++turn) {
+    const Eigen::Rotation2Dd R(turn * std::numbers::pi / 2);
+    for (size_t i = 0; i + 1 < side.size(); ++i)
+      walls.push_back({center + R * (side[i] - center), center + R * (side[i + 1] - center)});
+  }
+  return walls;
+}
+
+TEST(SearchLoops, TakesNoSideOfASymmetricRingForAnother) {
+  const Drive drive =
+      test::drive(symmetric_ring(), {{1, 1}, {23, 1}, {23, 23}, {1, 23}, {1, 1}, {23, 1}, {23, 12}},
+                  {0.01, 0.001}, {.max_range_m = 8, .noise_m = 0.01});
+  const auto candidates = search(drive, growing(drive, 0.04, 0.004));
+  EXPECT_FALSE(candidates.empty());
+  for (const LoopCandidate& c : candidates)
+    if (c.verdict == LoopVerdict::accepted) EXPECT_LT(error_m(drive, c), 0.5) << c.a << " " << c.b;
+}
+
+TEST(SearchLoops, RefusesAPlaceThatWasSeenThrough) {
+  const Laser laser = {.noise_m = 0.01};
+  Drive drive = test::drive(ring(), kTwiceAround, {0.005, 0.0008}, laser);
+  // On the second round posts stand along the corridors, in sight of everybody on the first round.
+  std::vector<Wall> changed = ring();
+  for (int i = 0; i < 13; ++i) {
+    const double x = 1.5 * i;
+    for (const double y : {0.5, 12.5}) changed.push_back({{x, y}, {x + 0.5, y - 0.2}});
+  }
+  std::mt19937 random(5);
+  for (size_t k = drive.truth.size() / 2; k < drive.truth.size(); ++k)
+    drive.observations[k] = test::scan(changed, drive.truth[k], laser, random);
+  const auto candidates = search(drive, growing(drive, 0.015, 0.002));
+  EXPECT_GT(count(candidates, LoopVerdict::contradicted), 0);
+}
+
+TEST(SearchLoops, LeavesKnownPosesToRegistration) {
+  const Drive drive = test::drive(ring(), kTwiceAround, {}, {});
+  EXPECT_TRUE(search(drive, growing(drive, 0.0005, 0.00005)).empty());
+}
+
+TEST(SearchLoops, AsksBeforeItSearches) {
+  Drive drive = test::drive(ring(), kTwiceAround, {}, {});
+  const ObservationVector store(drive.observations);
+  LoopProblem problem;
+  problem.keyframes = drive.keyframes;
+  problem.T_world_keyframe = drive.estimate;
+  problem.submap = drive.submap;
+  problem.already_tied = [](int, int) { return true; };
+  problem.covariance = growing(drive, 0.02, 0.002);
+  problem.observations = &store;
+  EXPECT_TRUE(search_loops(problem, Run{}).empty());
 }
 
 }  // namespace

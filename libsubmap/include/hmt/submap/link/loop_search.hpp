@@ -34,7 +34,8 @@ struct LoopCandidate {
   Pose T_a_b;                               ///< best match
   Matrix6d information = Matrix6d::Zero();  ///< of T_a_b, tangent of Pose (frame b)
   double score = 0;  ///< share of b's points that meet a's surfaces at the best match, [0, 1]
-  double second_score = 0;     ///< the same of the best match that differs from the best one
+  double second_score = 0;     ///< the same of the best match that differs from the best one, or
+                               ///< 0.7 score if it is below that
   double inlier_fraction = 0;  ///< of the confirming registration
   double rmse_m = 0;
   double free_space_conflict = 0;  ///< share of b's points that lie where a saw through, and the
@@ -46,7 +47,8 @@ struct LoopCandidate {
   bool operator==(const LoopCandidate&) const = default;
 };
 
-/// What the search may look at.
+/// What the search may look at. `already_tied` and `covariance` are called from several threads at
+/// once.
 struct LoopProblem {
   Space space = Space::se2;
   std::span<const Keyframe> keyframes;
@@ -61,9 +63,11 @@ struct LoopProblem {
 /// Loop closures between places that may have been visited twice: pairs are proposed where the
 /// predicted sensed regions meet within the accumulated covariance, matched exhaustively within it
 /// (branch and bound over the local map around `a`), then confirmed by registration, by free space
-/// and by the margin over the second-best match. Verdicts that need all loops together
+/// and by the margin over the second-best match. The map is a stretch of the track around one
+/// keyframe, the query a shorter one; pairs within them, and pairs whose relative pose is known to
+/// a decimetre, are left to plain registration. Verdicts that need all loops together
 /// (inconsistent, outlier) are left to the caller. Ordered by (a, b); same result for any number of
-/// threads.
+/// threads. Space::se2 only: in space nothing is searched and Run is told so.
 std::vector<LoopCandidate> search_loops(const LoopProblem& problem, const Run& run);
 
 }  // namespace hmt::submap
