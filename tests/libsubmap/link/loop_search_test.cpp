@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "drive.hpp"
 
@@ -124,7 +125,9 @@ TEST(SearchLoops, TakesNoSideOfASymmetricRingForAnother) {
   const auto candidates = search(drive, growing(drive, 0.04, 0.004));
   EXPECT_FALSE(candidates.empty());
   for (const LoopCandidate& c : candidates)
-    if (c.verdict == LoopVerdict::accepted) EXPECT_LT(error_m(drive, c), 0.5) << c.a << " " << c.b;
+    if (c.verdict == LoopVerdict::accepted) {
+      EXPECT_LT(error_m(drive, c), 0.5) << c.a << " " << c.b;
+    }
 }
 
 TEST(SearchLoops, RefusesAPlaceThatWasSeenThrough) {
@@ -158,7 +161,7 @@ TEST(SearchLoops, AsksBeforeItSearches) {
   problem.already_tied = [](int, int) { return true; };
   problem.covariance = growing(drive, 0.02, 0.002);
   problem.observations = &store;
-  EXPECT_TRUE(search_loops(problem, Run{}).empty());
+  EXPECT_TRUE(search_loops(problem, submap::Run{}).empty());
 }
 
 }  // namespace
