@@ -148,6 +148,7 @@ class Chains {
         }
     }
     std::vector<Move> moves;
+    moves.reserve(best.size());
     for (const auto& [pair, move] : best) moves.push_back(move);
     std::sort(moves.begin(), moves.end());
     return moves;

@@ -78,7 +78,7 @@ class Multigrid {
       x = prolongate(l, x);
       improve(l, x);
     }
-    return {VectorXd::Zero(1), std::move(x), 0};
+    return {VectorXd::Zero(1), x, 0};
   }
 
  private:
