@@ -13,9 +13,13 @@
 namespace hmt::submap {
 namespace {
 
-// Steps below this change nothing that a range sensor could tell.
-constexpr double kSmallStep_m = 2e-6;
-constexpr double kSmallStep_rad = 1e-6;
+// Steps below these change nothing that a range sensor could tell ...
+constexpr double kSmallStep_m = 5e-6;
+constexpr double kSmallStep_rad = 5e-6;
+// ... and after so many iterations the result may swing between two sets of matches by so much
+// more.
+constexpr int kSwingAfter = 12;
+constexpr double kSwing = 20;
 // Makes singular systems solvable; worth 100 m and 100 rad, so it holds nothing.
 constexpr double kNothing = 1e-4;
 
@@ -58,8 +62,10 @@ Vector6d solve_step(const SurfaceMatcher& matcher, const Pose& T_target_source,
   return angle > 0.5 ? Vector6d(step * (0.5 / angle)) : step;
 }
 
-bool is_small(const Vector6d& step) {
-  return step.head<3>().norm() < kSmallStep_m && step.tail<3>().norm() < kSmallStep_rad;
+bool is_small(const Vector6d& step, int iteration) {
+  const double share = iteration < kSwingAfter ? 1 : kSwing;
+  return step.head<3>().norm() < share * kSmallStep_m &&
+         step.tail<3>().norm() < share * kSmallStep_rad;
 }
 
 }  // namespace
@@ -76,7 +82,7 @@ Registration register_surface(const Surface& source, const RegistrationTarget& t
     const Vector6d step = solve_step(matcher, result.T_target_source, options);
     result.T_target_source = boxplus(result.T_target_source, step);
     result.termination = Registration::Termination::iteration_limit;
-    if (is_small(step) && !matcher.shrunk()) {
+    if (is_small(step, iteration) && !matcher.shrunk()) {
       result.termination = Registration::Termination::converged;
       break;
     }
