@@ -16,21 +16,9 @@ constexpr size_t kKeyframes = 30;
 void LocalMap::add(const Pose& T_track_robot, Surface surface) {
   surfaces_.push_back({T_track_robot, std::move(surface)});
   if (surfaces_.size() > kKeyframes) surfaces_.pop_front();
-  target_.reset();
-}
-
-void LocalMap::clear() {
-  surfaces_.clear();
-  target_.reset();
-}
-
-const RegistrationTarget& LocalMap::target() {
-  if (!target_) {
-    std::vector<RegistrationTarget::Placed> placed;
-    for (const Placed& p : surfaces_) placed.push_back({p.T_track_robot, &p.surface});
-    target_.emplace(placed);
-  }
-  return *target_;
+  std::vector<RegistrationTarget::Placed> placed;
+  for (const Placed& p : surfaces_) placed.push_back({p.T_track_robot, &p.surface});
+  target_ = RegistrationTarget(placed);
 }
 
 }  // namespace hmt::submap

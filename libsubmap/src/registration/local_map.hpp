@@ -3,7 +3,6 @@
 #pragma once
 
 #include <deque>
-#include <optional>
 
 #include "hmt/submap/registration/register_surface.hpp"
 
@@ -14,11 +13,8 @@ namespace hmt::submap {
 class LocalMap {
  public:
   void add(const Pose& T_track_robot, Surface surface);
-  /// Forgets everything, where the track is broken.
-  void clear();
-  bool empty() const { return surfaces_.empty(); }
-  /// In the track's frame; built when it is first asked for after a change.
-  const RegistrationTarget& target();
+  /// In the track's frame.
+  const RegistrationTarget& target() const { return target_; }
 
  private:
   struct Placed {
@@ -26,7 +22,7 @@ class LocalMap {
     Surface surface;
   };
   std::deque<Placed> surfaces_;
-  std::optional<RegistrationTarget> target_;
+  RegistrationTarget target_{{}};
 };
 
 }  // namespace hmt::submap

@@ -10,14 +10,14 @@ namespace {
 
 // Turning by a radian moves the wheels of a robot about as much as driving this far.
 constexpr double kTurnLength_m = 0.3;
-// What even a robot at rest may shift between two observations.
-constexpr double kRestTranslation_m = 0.001;
-constexpr double kRestRotation_rad = 0.0005;
+// Odometry that moves less is at rest.
+constexpr double kRest = 1e-3;
 // Observations of a sensor of some tens of metres this far apart do not overlap enough to be
 // registered, so a larger step cannot be confirmed.
 constexpr double kLargestStep_m = 10;
 // Motion after which what was learnt counts half: a carpet or a heap of people changes the slip.
 constexpr double kMemory = 50;
+constexpr double kRestMemory = 200;  // steps
 
 struct Motion {
   double translation = 0;  // distance + l |rotation|
@@ -32,12 +32,16 @@ Motion motion_of(const Pose& step) {
 
 }  // namespace
 
+void OdometryModel::Rate::add(double square, double more, double memory) {
+  const double keep = std::exp2(-more / memory);
+  squares = keep * squares + square;
+  amount = keep * amount + more;
+}
+
 Matrix6d OdometryModel::covariance(const Pose& step) const {
   const Motion motion = motion_of(step);
-  const double translation =
-      translation_.value() * motion.translation + kRestTranslation_m * kRestTranslation_m;
-  const double rotation =
-      rotation_.value() * motion.rotation + kRestRotation_rad * kRestRotation_rad;
+  const double translation = rest_translation_.value() + translation_.value() * motion.translation;
+  const double rotation = rest_rotation_.value() + rotation_.value() * motion.rotation;
   Vector6d variances;
   variances << translation, translation, translation, rotation, rotation, rotation;
   if (space_ == Space::se2) variances.segment<3>(2).setZero();
@@ -47,15 +51,15 @@ Matrix6d OdometryModel::covariance(const Pose& step) const {
 void OdometryModel::learn(const Pose& odometry_step, const Pose& measured_step) {
   const Motion motion = motion_of(odometry_step);
   const Vector6d error = boxminus(measured_step, odometry_step);
-  const double axes = space_ == Space::se2 ? 2 : 3;
-  const double turns = space_ == Space::se2 ? 1 : 3;
-  const auto add = [](Rate& rate, double square, double amount) {
-    const double keep = std::exp2(-amount / kMemory);
-    rate.squares = keep * rate.squares + square;
-    rate.motion = keep * rate.motion + amount;
-  };
-  add(translation_, error.head<3>().squaredNorm() / axes, motion.translation);
-  add(rotation_, error.tail<3>().squaredNorm() / turns, motion.rotation);
+  const double translation = error.head<3>().squaredNorm() / (space_ == Space::se2 ? 2 : 3);
+  const double rotation = error.tail<3>().squaredNorm() / (space_ == Space::se2 ? 1 : 3);
+  if (motion.translation < kRest) {
+    rest_translation_.add(translation, 1, kRestMemory);
+    rest_rotation_.add(rotation, 1, kRestMemory);
+  } else {
+    translation_.add(translation, motion.translation, kMemory);
+    rotation_.add(rotation, motion.rotation, kMemory);
+  }
 }
 
 bool OdometryModel::is_motion(const Pose& step) {

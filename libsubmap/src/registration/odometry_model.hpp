@@ -7,9 +7,11 @@
 namespace hmt::submap {
 
 /// How far the odometry of a log can be trusted: variances that grow with the motion,
-///   var(x) = var(y) = a (distance + l |rotation|),   var(rotation) = b (|rotation| + distance / l)
-/// (also z and tilt, in space), a and b learnt from the differences between odometry and
-/// registration so far, starting from those of a poor wheeled robot.
+///   var(x) = var(y) = r_t + a (distance + l |rotation|),   var(rotation) = r_r + b (|rotation| +
+///   distance / 10 l)
+/// (also z and tilt, in space). All four are learnt from the differences between odometry and
+/// registration so far, starting from those of a poor wheeled robot; r from steps in which the
+/// odometry stood still, so a log without odometry is one whose r is large.
 class OdometryModel {
  public:
   explicit OdometryModel(Space space) : space_(space) {}
@@ -24,14 +26,18 @@ class OdometryModel {
 
  private:
   struct Rate {
-    double squares;  // weighted sum of squared errors
-    double motion;   // weighted sum of motion
-    double value() const { return squares / motion; }
+    double squares;  // fading sum of squared errors
+    double amount;   // fading sum of motion, or of steps
+    double value() const { return squares / amount; }
+    void add(double square, double more, double memory);
   };
 
   Space space_;
   Rate translation_{0.05, 5.0};
   Rate rotation_{0.05, 5.0};
+  // At rest a robot may still shift by a millimetre and half a milliradian from step to step.
+  Rate rest_translation_{1e-6 * 5, 5};
+  Rate rest_rotation_{2.5e-7 * 5, 5};
 };
 
 }  // namespace hmt::submap

@@ -40,6 +40,10 @@ constexpr double kDoubtful2 = 16;
 // with heavy tails, hence the logarithm. 0.12 more at chi2 1000, about 30 standard deviations.
 constexpr double kInliersPerDoubt = 0.03;
 constexpr int kStarts = 3;
+constexpr int kMostRefused = 10;
+// Far from the odometry's guess nearly all must fit, and no other place so nearly as well.
+constexpr double kLeastFarInlierFraction = 0.8;
+constexpr double kAmbiguousShare = 0.85;
 constexpr double kLeastWindow_m = 0.5, kLargestWindow_m = 2.0;
 constexpr double kLeastWindow_rad = 0.3, kLargestWindow_rad = 1.0;
 
@@ -83,6 +87,8 @@ void Tracker::add(const Observation& observation) {
       odometry_unbroken_ = false;
       ++counts_.odometry_jumps;
     }
+    // Where the odometry's word was taken against the surfaces, it is trusted less and less.
+    step_covariance *= std::exp2(2 * std::min(refused_, kMostRefused));
     T_keyframe_odometry_ = T_keyframe_odometry_ * step;
     const Matrix6d covariance = compose_covariance(step, covariance_latest_, step_covariance);
     const Prediction prediction{T_track_latest_ * step, covariance, inverse_in(space_, covariance)};
@@ -128,11 +134,13 @@ Tracker::Estimate Tracker::estimate(const Surface& surface, const Prediction& pr
     found = search(surface, prediction, found);
     if (credit(found, prediction) < kLeastInlierFraction) {
       ++counts_.odometry_only;
+      if (found.termination != Registration::Termination::too_few_points) ++refused_;
       return {prediction.T_track_robot, Matrix6d::Zero(), false};
     }
     ++counts_.searched;
   }
   ++counts_.registered;
+  refused_ = 0;
   return {found.T_target_source, found.information, true};
 }
 
@@ -143,17 +151,21 @@ Registration Tracker::search(const Surface& surface, const Prediction& predictio
   const double sigma_rad = std::sqrt(prediction.covariance(5, 5));
   const CorrelativeWindow window{std::clamp(5 * sigma_m, kLeastWindow_m, kLargestWindow_m),
                                  std::clamp(5 * sigma_rad, kLeastWindow_rad, kLargestWindow_rad)};
-  const Registration near = search_within(window, surface, prediction, first);
+  const auto matches_within = [&](const CorrelativeWindow& within) {
+    return correlative_search(surface, map_.target(), prediction.T_track_robot, within, kStarts);
+  };
+  const Registration near = best_of(matches_within(window), surface, prediction, first);
   if (credit(near, prediction) >= kLeastInlierFraction) return near;
-  return search_within({kLargestWindow_m, std::numbers::pi}, surface, prediction, near);
+  const std::vector<CorrelativeMatch> far = matches_within({kLargestWindow_m, std::numbers::pi});
+  if (far.size() > 1 && far[1].score > kAmbiguousShare * far[0].score) return near;
+  const Registration best = best_of(far, surface, prediction, near);
+  return best.inlier_fraction >= kLeastFarInlierFraction ? best : near;
 }
 
-Registration Tracker::search_within(const CorrelativeWindow& window, const Surface& surface,
-                                    const Prediction& prediction, const Registration& first) {
+Registration Tracker::best_of(const std::vector<CorrelativeMatch>& matches, const Surface& surface,
+                              const Prediction& prediction, const Registration& first) const {
   std::vector<Pose> starts{first.T_target_source};
-  for (const CorrelativeMatch& match :
-       correlative_search(surface, map_.target(), prediction.T_track_robot, window, kStarts))
-    starts.push_back(match.T_target_source);
+  for (const CorrelativeMatch& match : matches) starts.push_back(match.T_target_source);
   Registration best = first;
   for (const Pose& start : starts) {
     // The odometry is as wrong as the start says, but only in that direction: along a corridor, of

@@ -43,8 +43,8 @@ class Tracker {
   Estimate estimate(const Surface& surface, const Prediction& prediction);
   Registration search(const Surface& surface, const Prediction& prediction,
                       const Registration& first);
-  Registration search_within(const CorrelativeWindow& window, const Surface& surface,
-                             const Prediction& prediction, const Registration& first);
+  Registration best_of(const std::vector<CorrelativeMatch>& matches, const Surface& surface,
+                       const Prediction& prediction, const Registration& first) const;
   /// Inlier fraction less what the contradiction to the odometry costs.
   double credit(const Registration& registration, const Prediction& prediction) const;
   double mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const;
@@ -68,6 +68,7 @@ class Tracker {
   Pose T_keyframe_odometry_;
   Matrix6d information_keyframe_ = Matrix6d::Zero();  // of its registration
   bool odometry_unbroken_ = true;
+  int refused_ = 0;  // observations in a row whose registration was not taken
 };
 
 }  // namespace hmt::submap
