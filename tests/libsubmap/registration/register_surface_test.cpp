@@ -73,5 +73,63 @@ TEST(RegisterSurface, InformationPredictsTheErrorsOfNoisyScans) {
   EXPECT_LT(nees, 4.5);
 }
 
+TEST(RegisterSurface, LetsThePriorDecideAlongACorridor) {
+  const test::Laser laser{.noise_m = 0.01};
+  const Surface a = seen_from(test::corridor(), Pose{}, laser, 1);
+  const Surface b = seen_from(test::corridor(), Pose::planar(0.3, 0.1, 0.05), laser, 2);
+  RegistrationOptions options;
+  options.prior = PosePrior{Pose::planar(0.3, 0, 0), Matrix6d::Zero()};
+  options.prior->information.diagonal() << 1e4, 1e2, 0, 0, 0, 1e2;
+  const Registration found = register_surface(b, target_of(a), Pose{}, options);
+  EXPECT_NEAR(found.T_target_source.translation.x(), 0.3, 0.01);
+  EXPECT_NEAR(found.T_target_source.translation.y(), 0.1, 0.01);
+  EXPECT_NEAR(found.T_target_source.yaw_rad(), 0.05, 0.005);
+}
+
+// Three planes that meet at a right angle, seen as clouds: all six unknowns.
+TEST(RegisterSurface, FindsTheOffsetBetweenTwoCloudsOfACorner) {
+  const auto cloud = [](const Pose& T_world_robot, float shift) {
+    Observation observation;
+    observation.readings.push_back(test::empty_reading(0.02));
+    const Pose T_robot_world = T_world_robot.inverse();
+    for (int i = 0; i < 30; ++i)
+      for (int j = 0; j < 30; ++j) {
+        const double u = 0.1 * i + shift, v = 0.1 * j + shift;
+        for (const Eigen::Vector3d& p :
+             {Eigen::Vector3d(u, v, 0), Eigen::Vector3d(u, 0, v), Eigen::Vector3d(0, u, v)})
+          observation.readings[0].points_sensor.push_back((T_robot_world * p).cast<float>());
+      }
+    return make_surface(observation);
+  };
+  const Pose T_world_a{{1.5, 1.5, 1.5}, Eigen::Quaterniond::Identity()};
+  Vector6d offset;
+  offset << 0.1, -0.05, 0.08, 0.05, -0.04, 0.06;
+  const Pose T_a_b = boxplus(Pose{}, offset);
+  const Surface a = cloud(T_world_a, 0.0F), b = cloud(T_world_a * T_a_b, 0.03F);
+  RegistrationOptions options;
+  options.space = Space::se3;
+  const Registration found = register_surface(b, target_of(a), Pose{}, options);
+  const Vector6d error = boxminus(T_a_b, found.T_target_source);
+  EXPECT_LT(error.norm(), 2e-3) << error.transpose();
+  EXPECT_GT(found.information.diagonal().minCoeff(), 1e3);
+}
+
+TEST(RegisterSurface, SolvesForTheHeading) {
+  const Surface a = seen_from(test::room(), Pose{}, {});
+  const Surface b = seen_from(test::room(), Pose::planar(0, 0, -0.15), {});
+  const Registration found = register_surface(b, target_of(a), Pose{}, {});
+  EXPECT_NEAR(found.T_target_source.yaw_rad(), -0.15, 1e-4);
+}
+
+TEST(RegisterSurface, IsRepeatable) {
+  const test::Laser laser{.noise_m = 0.02};
+  const Surface a = seen_from(test::room(), Pose{}, laser, 1);
+  const Surface b = seen_from(test::room(), Pose::planar(0.2, 0.1, 0.1), laser, 2);
+  const Registration one = register_surface(b, target_of(a), Pose{}, {});
+  const Registration two = register_surface(b, target_of(a), Pose{}, {});
+  EXPECT_TRUE(one.T_target_source == two.T_target_source);
+  EXPECT_TRUE(one.information == two.information);
+}
+
 }  // namespace
 }  // namespace hmt::submap

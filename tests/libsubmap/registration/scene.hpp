@@ -41,6 +41,14 @@ inline double ray_range_m(const std::vector<Wall>& walls, const Eigen::Vector2d&
   return range_m;
 }
 
+/// A reading without points.
+inline submap::Reading empty_reading(double beam_step_rad) {
+  submap::Reading reading;
+  reading.max_range_m = 30;
+  reading.beam_step_rad = beam_step_rad;
+  return reading;
+}
+
 /// What the laser, at the robot's origin, sees of the walls from T_world_robot.
 inline submap::Observation scan(const std::vector<Wall>& walls, const submap::Pose& T_world_robot,
                                 const Laser& laser, std::mt19937& random) {

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hmt/submap/registration/track.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "hmt/submap/log/simulation.hpp"
+#include "real_data.hpp"
+
+namespace hmt::submap {
+namespace {
+
+// A log in memory.
+class MemoryLog : public LogReader {
+ public:
+  explicit MemoryLog(std::vector<Observation> observations) : observations_(observations) {}
+  std::optional<Observation> next() override {
+    if (next_ == observations_.size()) return std::nullopt;
+    return observations_[next_++];
+  }
+  const LogReport& report() const override { return report_; }
+  int64_t bytes_read() const override { return static_cast<int64_t>(next_); }
+  int64_t bytes_total() const override { return static_cast<int64_t>(observations_.size()); }
+  Space space() const override { return Space::se2; }
+
+ private:
+  std::vector<Observation> observations_;
+  size_t next_ = 0;
+  LogReport report_;
+};
+
+Track track(const std::vector<Observation>& observations) {
+  MemoryLog log(observations);
+  return track_log(log, {}, {}, {});
+}
+
+Pose tracked_pose(const Track& track, size_t i) {
+  const TrackedObservation& tracked = track.observations[i];
+  return track.keyframes[static_cast<size_t>(tracked.keyframe)].T_track_robot *
+         tracked.T_keyframe_robot;
+}
+
+// Largest error of the pose of an observation as seen from the one `gap` before.
+double largest_error_m(const Track& track, const std::vector<Pose>& truth, size_t gap) {
+  double largest = 0;
+  for (size_t i = gap; i < truth.size(); ++i) {
+    const Pose is = graph::relative_pose(tracked_pose(track, i - gap), tracked_pose(track, i));
+    const Pose should = graph::relative_pose(truth[i - gap], truth[i]);
+    largest = std::max(largest, (is.translation - should.translation).norm());
+  }
+  return largest;
+}
+
+SimulatedLog rooms() {
+  return simulate({.world = "rooms", .seed = 1, .laps = 1});
+}
+
+TEST(TrackLog, FollowsASimulatedRobotToCentimetres) {
+  const SimulatedLog log = rooms();
+  const Track found = track(log.observations);
+  ASSERT_EQ(found.observations.size(), log.observations.size());
+  EXPECT_LT(largest_error_m(found, log.T_world_robot, 10), 0.05);
+  EXPECT_LT(largest_error_m(found, log.T_world_robot, log.T_world_robot.size() - 1), 0.1);
+}
+
+TEST(TrackLog, HangsEveryObservationOnAKeyframeNearby) {
+  const TrackOptions options;
+  const Track found = track(rooms().observations);
+  ASSERT_EQ(found.odometry.size() + 1, found.keyframes.size());
+  for (size_t i = 0; i < found.observations.size(); ++i) {
+    EXPECT_EQ(found.observations[i].observation, static_cast<int64_t>(i));
+    EXPECT_LT(found.observations[i].T_keyframe_robot.translation.norm(),
+              options.keyframe_distance_m);
+  }
+  for (const Keyframe& keyframe : found.keyframes) {
+    const auto index = static_cast<size_t>(keyframe.observation);
+    EXPECT_EQ(found.observations[index].keyframe, keyframe.id);
+  }
+}
+
+// Mean normalized squared error of the constraints; 3 if all errors were independent, less since
+// each constraint allows for the error that a laser's steps of range leave on all beams.
+TEST(TrackLog, InformationPredictsTheErrorsOfTheConstraints) {
+  const SimulatedLog log = rooms();
+  const Track found = track(log.observations);
+  const auto truth = [&](int keyframe) {
+    const auto k = static_cast<size_t>(keyframe);
+    return log.T_world_robot[static_cast<size_t>(found.keyframes[k].observation)];
+  };
+  double nees = 0;
+  for (const Constraint& c : found.odometry) {
+    const Vector6d e = boxminus(graph::relative_pose(truth(c.a), truth(c.b)), c.T_a_b);
+    nees += e.dot(c.information * e) / static_cast<double>(found.odometry.size());
+  }
+  EXPECT_GT(nees, 0.3);
+  EXPECT_LT(nees, 3.5);
+}
+
+TEST(TrackLog, SurvivesOdometryThatJumps) {
+  SimulatedLog log = rooms();
+  for (size_t i = log.observations.size() / 2; i < log.observations.size(); ++i)
+    log.observations[i].T_odom_robot = Pose::planar(100, -50, 2) * log.observations[i].T_odom_robot;
+  EXPECT_LT(largest_error_m(track(log.observations), log.T_world_robot, 10), 0.05);
+}
+
+TEST(TrackLog, SurvivesOdometryThatTurnsByItself) {
+  SimulatedLog log = rooms();
+  const std::vector<Observation> original = log.observations;
+  for (size_t i = 1; i < original.size(); ++i)
+    log.observations[i].T_odom_robot =
+        log.observations[i - 1].T_odom_robot *
+        graph::relative_pose(original[i - 1].T_odom_robot, original[i].T_odom_robot) *
+        Pose::planar(0, 0, 0.05);
+  EXPECT_LT(largest_error_m(track(log.observations), log.T_world_robot, 1), 0.1);
+}
+
+TEST(TrackLog, BridgesEmptyScansByOdometry) {
+  std::vector<Observation> observations(3);
+  for (size_t i = 0; i < observations.size(); ++i) {
+    observations[i].index = static_cast<int64_t>(i);
+    observations[i].T_odom_robot = Pose::planar(0.6 * static_cast<double>(i), 0, 0);
+  }
+  const Track found = track(observations);
+  ASSERT_EQ(found.keyframes.size(), 3u);
+  EXPECT_NEAR(found.keyframes[2].T_track_robot.translation.x(), 1.2, 1e-9);
+  ASSERT_EQ(found.odometry.size(), 2u);
+  EXPECT_GT(found.odometry[0].information(0, 0), 0);
+}
+
+TEST(TrackLog, IsRepeatable) {
+  const std::vector<Observation> observations = rooms().observations;
+  EXPECT_TRUE(track(observations) == track(observations));
+}
+
+TEST(TrackLog, HandsOnEveryObservationAndStopsOnRequest) {
+  const std::vector<Observation> observations = rooms().observations;
+  size_t kept = 0;
+  MemoryLog log(observations);
+  submap::Run run;
+  run.stop = [&] { return kept == 7; };
+  EXPECT_THROW(track_log(
+                   log, {}, [&](const Observation&) { ++kept; }, run),
+               Interrupted);
+  EXPECT_EQ(kept, 7u);
+}
+
+TEST(TrackLog, RefusesAnEmptyLogAndOptionsOutOfRange) {
+  EXPECT_THROW(track({}), InputError);
+  MemoryLog log({Observation{}});
+  EXPECT_THROW(track_log(log, {.keyframe_distance_m = 0}, {}, {}), InputError);
+  EXPECT_THROW(track_log(log, {.keyframe_angle_rad = 4}, {}, {}), InputError);
+}
+
+// Mean translation error of the relations [Kuemmerle 2009] inside the first 600 scans.
+TEST(TrackLog, AgreesWithTheRelationsOfARealLog) {
+  HMT_REQUIRE_REAL_DATA("laser2d/fr079.clf.bz2");
+  const auto log = open_log(test::data_dir() / "laser2d/fr079.clf.bz2");
+  std::vector<Observation> observations;
+  while (observations.size() < 600) observations.push_back(log->next().value());
+  const Track found = track(observations);
+  const auto nearest = [&](double stamp_s) {
+    size_t best = 0;
+    for (size_t i = 1; i < observations.size(); ++i)
+      if (std::abs(observations[i].stamp_s - stamp_s) <
+          std::abs(observations[best].stamp_s - stamp_s))
+        best = i;
+    return best;
+  };
+  std::ifstream relations(test::data_dir() / "laser2d/fr079.relations");
+  double s1 = 0, s2 = 0, x = 0, y = 0, z = 0, roll = 0, pitch = 0, yaw = 0, sum = 0;
+  int count = 0;
+  while (relations >> s1 >> s2 >> x >> y >> z >> roll >> pitch >> yaw) {
+    const size_t i = nearest(s1), j = nearest(s2);
+    if (std::abs(observations[i].stamp_s - s1) > 0.01 ||
+        std::abs(observations[j].stamp_s - s2) > 0.01)
+      continue;
+    const Pose is = graph::relative_pose(tracked_pose(found, i), tracked_pose(found, j));
+    sum += std::hypot(is.translation.x() - x, is.translation.y() - y);
+    ++count;
+  }
+  ASSERT_GT(count, 30);
+  EXPECT_LT(sum / count, 0.04);
+}
+
+}  // namespace
+}  // namespace hmt::submap
