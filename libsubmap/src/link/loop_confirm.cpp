@@ -86,9 +86,9 @@ void refine(const PatchSurfaces& map, const PatchSurfaces& query, const Pose& T_
   const RegistrationTarget target_a = make_target(surfaces_around(map, T_map_a, kTargetReachM));
   const RegistrationTarget target_b = make_target(surfaces_around(query, Pose{}, kTargetReachM));
   const Surface source_a =
-      merged_surface(surfaces_around(map, T_map_a, kSourceReachM), kMostSourcePoints);
-  const Surface source_b =
-      merged_surface(surfaces_around(query, Pose{}, kSourceReachM), kMostSourcePoints);
+      merged_surface(surfaces_around(map, T_map_a, kSourceReachM), kQueryRangeM, kMostSourcePoints);
+  const Surface source_b = merged_surface(surfaces_around(query, Pose{}, kSourceReachM),
+                                          kQueryRangeM, kMostSourcePoints);
   options.prior = PosePrior{confirmation.T_a_b, confirmation.information};
   const Registration forward = register_surface(source_b, target_a, confirmation.T_a_b, options);
   options.prior.reset();
@@ -117,8 +117,9 @@ LoopConfirmation LoopConfirmer::confirm(const LoopPatch& query, const Pose& T_ma
   const PatchSurfaces query_surfaces = load_surfaces(problem_, query);
   RegistrationOptions options;
   options.space = problem_.space;
-  const Registration whole = register_surface(merged_surface(query_surfaces, kMostSourcePoints),
-                                              *map_target_, T_map_query, options);
+  const Registration whole =
+      register_surface(merged_surface(query_surfaces, kQueryRangeM, kMostSourcePoints),
+                       *map_target_, T_map_query, options);
   const size_t index = nearest_keyframe(map_, whole.T_target_source);
   const Pose& T_map_a = map_.T_center_keyframe[index];
   LoopConfirmation confirmation;

@@ -15,7 +15,6 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kCellM = 0.1;
 constexpr double kGridSigmaM = 0.1;
 constexpr int kLevels = 5;
-constexpr double kQueryRangeM = 15.0;
 constexpr size_t kMostQueryPoints = 300;
 
 /// chi2 of three degrees of freedom as a distance: what is searched (99.7 %) and what is believed

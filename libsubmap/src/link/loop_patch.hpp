@@ -9,6 +9,10 @@
 
 namespace hmt::submap {
 
+/// What was seen farther from the center of a query than this is not asked for: the map need not
+/// reach so far, and every error of the heading counts there.
+inline constexpr double kQueryRangeM = 15.0;
+
 /// Distance travelled up to each keyframe, metres.
 std::vector<double> path_lengths(std::span<const Pose> T_world_keyframe);
 

@@ -31,9 +31,21 @@ std::vector<MapGroup> group_by_map(std::span<const LoopProposal> proposals) {
   return groups;
 }
 
-std::vector<PlanarScan> load_scans(const LoopProblem& problem, const Run& run) {
+/// The scans of the keyframes that any map or query is made of; the others stay empty.
+std::vector<PlanarScan> load_scans(const LoopProblem& problem, std::span<const double> path_m,
+                                   std::span<const LoopProposal> proposals, const Run& run) {
+  std::vector<char> needed(problem.keyframes.size(), 0);
+  const auto mark = [&](int center, double reach_m) {
+    const auto [first, last] = patch_range(path_m, center, reach_m);
+    std::fill(needed.begin() + first, needed.begin() + last + 1, char{1});
+  };
+  for (const LoopProposal& proposal : proposals) {
+    mark(proposal.a, kMapReachM);
+    mark(proposal.b, kQueryReachM);
+  }
   std::vector<PlanarScan> scans(problem.keyframes.size());
   for_each_index(0, scans.size(), run.threads, [&](size_t k) {
+    if (needed[k] == 0) return;
     scans[k] = make_planar_scan(*problem.observations->load(problem.keyframes[k].observation));
   });
   return scans;
@@ -63,7 +75,7 @@ std::vector<LoopCandidate> search_loops(const LoopProblem& problem, const Run& r
   const std::vector<double> path_m = path_lengths(problem.T_world_keyframe);
   const std::vector<LoopProposal> proposals = propose_loops(problem, path_m, run.threads);
   if (proposals.empty()) return {};
-  const std::vector<PlanarScan> scans = load_scans(problem, run);
+  const std::vector<PlanarScan> scans = load_scans(problem, path_m, proposals, run);
   const std::vector<MapGroup> groups = group_by_map(proposals);
   std::vector<LoopCandidate> candidates(proposals.size());
   for (size_t first = 0; first < groups.size(); first += kMapsPerBatch) {

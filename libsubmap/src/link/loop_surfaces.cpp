@@ -38,15 +38,18 @@ PatchSurfaces surfaces_around(const PatchSurfaces& patch, const Pose& T_center_p
   return near;
 }
 
-Surface merged_surface(const PatchSurfaces& patch, size_t most_points) {
-  size_t total = 0;
-  for (const Surface& surface : patch.surfaces) total += surface.size();
-  const size_t stride = std::max<size_t>(1, (total + most_points - 1) / most_points);
-  Surface all;
-  size_t next = 0;
+Surface merged_surface(const PatchSurfaces& patch, double range_m, size_t most_points) {
+  std::vector<std::pair<size_t, size_t>> near;  // surface, point
   for (size_t i = 0; i < patch.surfaces.size(); ++i)
     for (size_t j = 0; j < patch.surfaces[i].size(); ++j)
-      if (next++ % stride == 0) append_point(all, patch.surfaces[i], j, patch.T_center_keyframe[i]);
+      if ((patch.T_center_keyframe[i] * patch.surfaces[i].points_robot[j]).norm() < range_m)
+        near.emplace_back(i, j);
+  const size_t stride = std::max<size_t>(1, (near.size() + most_points - 1) / most_points);
+  Surface all;
+  for (size_t k = 0; k < near.size(); k += stride) {
+    const auto [i, j] = near[k];
+    append_point(all, patch.surfaces[i], j, patch.T_center_keyframe[i]);
+  }
   return all;
 }
 

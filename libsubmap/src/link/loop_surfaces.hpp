@@ -21,8 +21,9 @@ PatchSurfaces load_surfaces(const LoopProblem& problem, const LoopPatch& patch);
 PatchSurfaces surfaces_around(const PatchSurfaces& patch, const Pose& T_center_place,
                               double reach_m);
 
-/// All points in the frame of the center, every n-th, so that there are at most `most_points`.
-Surface merged_surface(const PatchSurfaces& patch, size_t most_points);
+/// The points within `range_m` of the center, in its frame, every n-th, so that there are at most
+/// `most_points`.
+Surface merged_surface(const PatchSurfaces& patch, double range_m, size_t most_points);
 
 RegistrationTarget make_target(const PatchSurfaces& patch);
 

@@ -35,36 +35,6 @@ double score_at(const CorrelativeGrid& map, const Points& points_query, const Po
   return sum / static_cast<double>(points_query.size());
 }
 
-TEST(CorrelativeGrid, IsOneAtAPointAndFallsAsTheGaussian) {
-  const Points one = {{0.05F, 0.05F}};
-  const CorrelativeGrid grid(one, 0.1, 0.1, 0);
-  // The cells' centers lie 0, 0.1 and 0.4 m from the point: exp(0), exp(-1/2), beyond 3 sigma.
-  const Eigen::Vector2d origin(0.05, 0.05);
-  EXPECT_NEAR(grid.value(origin), 1.0, 1e-9);
-  EXPECT_NEAR(grid.value(origin + Eigen::Vector2d(0.1, 0.0)), std::exp(-0.5), 0.5 / 255);
-  EXPECT_EQ(grid.value(origin + Eigen::Vector2d(0.4, 0.0)), 0.0);
-  EXPECT_EQ(grid.value(origin + Eigen::Vector2d(99.0, 0.0)), 0.0);
-}
-
-TEST(CorrelativeGrid, BoundIsTheLargestValueOfItsWindow) {
-  const CorrelativeGrid grid(l_shape(), 0.1, 0.1, 3);
-  for (int level = 1; level <= 3; ++level)
-    for (int y = 0; y < 40; y += 3)
-      for (int x = 0; x < 60; x += 3) {
-        int largest = 0;
-        for (int dy = 0; dy < 1 << level; ++dy)
-          for (int dx = 0; dx < 1 << level; ++dx)
-            largest = std::max(largest, grid.bound(0, x + dx, y + dy));
-        EXPECT_EQ(grid.bound(level, x, y), largest) << level << " " << x << " " << y;
-      }
-}
-
-TEST(CorrelativeGrid, WithoutPointsIsZero) {
-  const CorrelativeGrid grid({}, 0.1, 0.1, 3);
-  EXPECT_EQ(grid.value({0.0, 0.0}), 0.0);
-  EXPECT_EQ(grid.bound(3, 0, 0), 0);
-}
-
 TEST(CorrelativeSearch, FindsThePoseFarFromTheGuess) {
   const CorrelativeGrid map(l_shape(), 0.05, 0.1, 5);
   const Pose truth = Pose::planar(1.3, -2.1, 0.4);
