@@ -18,8 +18,9 @@ constexpr double kInlierDistance_m = 0.05;
 // deviations: errors that two scans share from the same laser (steps of range, beams at the same
 // bearings) look like structure that moves along with the robot.
 constexpr double kChanceDeviations = 2;
-// Ranges come in steps of a centimetre from common lasers: uniform error of 2.9 mm that all beams
-// on a wall may share, so no number of beams takes it away.
+// Lasers err systematically by some millimetres (steps of range, reflectance, angle of incidence),
+// by the same amount on all beams that meet a wall, so no number of beams takes it away. A step of
+// a centimetre alone leaves 2.9 mm.
 constexpr double kSharedError_m = 0.003;
 
 struct InlierSums {

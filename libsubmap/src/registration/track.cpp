@@ -42,6 +42,11 @@ Track track_log(LogReader& log, const TrackOptions& options,
                std::to_string(counts.odometry_only) + " by odometry alone");
   Track track = tracker.take();
   track.log = log.report();
+  if (counts.odometry_jumps > 0) {
+    track.log.notes["odometry jumps, bridged by registration"] += counts.odometry_jumps;
+    run.log_warning("odometry jumps " + std::to_string(counts.odometry_jumps) +
+                    " times; the steps are taken from registration");
+  }
   return track;
 }
 

@@ -189,9 +189,13 @@ void Tracker::add_keyframe(const Observation& observation, const Estimate& estim
     const Pose T_a_b = relative_pose(previous.T_track_robot, estimate.T_track_robot);
     const Matrix6d by_registration =
         compose_information(space_, T_a_b, information_keyframe_, estimate.information);
-    const Matrix6d by_odometry =
+    Matrix6d by_odometry =
         odometry_unbroken_ ? inverse_in(space_, keyframe_odometry_.covariance(T_keyframe_odometry_))
                            : inverse_in(space_, unknown_step(space_));
+    // Odometry that the surfaces contradict is as wrong as they say.
+    const Vector6d error = boxminus(T_a_b, T_keyframe_odometry_);
+    const double unknowns = space_ == Space::se2 ? 3 : 6;
+    by_odometry /= std::max(1.0, error.dot(by_odometry * error) / unknowns);
     track_.odometry.push_back({previous.id, previous.id + 1, ConstraintKind::odometry, T_a_b,
                                by_registration + by_odometry});
     if (odometry_unbroken_ && observes_all(space_, by_registration, by_odometry))

@@ -104,7 +104,9 @@ TEST(TrackLog, SurvivesOdometryThatJumps) {
   SimulatedLog log = rooms();
   for (size_t i = log.observations.size() / 2; i < log.observations.size(); ++i)
     log.observations[i].T_odom_robot = Pose::planar(100, -50, 2) * log.observations[i].T_odom_robot;
-  EXPECT_LT(largest_error_m(track(log.observations), log.T_world_robot, 10), 0.05);
+  const Track found = track(log.observations);
+  EXPECT_LT(largest_error_m(found, log.T_world_robot, 10), 0.05);
+  EXPECT_EQ(found.log.notes.at("odometry jumps, bridged by registration"), 1);
 }
 
 TEST(TrackLog, SurvivesOdometryThatTurnsByItself) {
