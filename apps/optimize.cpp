@@ -15,6 +15,7 @@
 #include "console.hpp"
 #include "hmt/graph/g2o_file.hpp"
 #include "hmt/graph/input_error.hpp"
+#include "hmt/graph/pose_covariance.hpp"
 #include "hmt/graph/pose_optimizer.hpp"
 #include "hmt/graph/submap_optimizer.hpp"
 
@@ -33,6 +34,7 @@ struct OptimizeArguments {
   std::string output;
   graph::PoseOptimizerOptions options;
   Method method = Method::flat;
+  bool condition = false;
   bool force = false;
 };
 
@@ -224,6 +226,12 @@ int run_optimize(const OptimizeArguments& arguments, const Globals& globals) {
   graph::write_g2o(arguments.output, file);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   nlohmann::ordered_json json = to_json(file, report, wall_s);
+  if (arguments.condition) {
+    const auto condition = graph::PoseCovariance(file.graph).condition();
+    if (condition) json["condition"] = *condition;
+    run.log_info(condition ? fmt::format("condition of the information matrix: {:.3g}", *condition)
+                           : "the information matrix is singular: poses are left open");
+  }
   if (submaps) json["by_submaps"] = to_json(*submaps);
   print_result(globals, json, to_text(file, report, wall_s));
   return losses ? kDoneWithLosses : kDone;
@@ -255,6 +263,8 @@ Action add_optimize(CLI::App& command) {
   command.add_option("--max-iterations", options.max_iterations, "Upper limit of one solve")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
+  command.add_flag("--condition", arguments->condition,
+                   "Report the condition number of the information matrix; costs a factorization");
   command.add_flag("--force", arguments->force, "Overwrite files that exist");
   command.footer(
       "chi2 is that of the g2o format: the sum of r^T Omega r with r = (R_z^T (t_rel - t_z), yaw) "

@@ -5,8 +5,10 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/LU>
+#include <string>
 
 #include "hmt/graph/chi_squared.hpp"
+#include "hmt/graph/input_error.hpp"
 #include "hmt/graph/pose_covariance.hpp"
 #include "maximum_clique.hpp"
 #include "pose_problem.hpp"
@@ -96,6 +98,12 @@ std::vector<bool> consistent_set(const PoseGraph& trajectory, std::span<const Po
 std::vector<bool> pairwise_consistent_set(const PoseGraph& trajectory,
                                           std::span<const PoseGraphEdge> loops, double confidence) {
   check_edges(loops, trajectory.space, trajectory.poses.size());
+  with_chart(trajectory.space, [&](auto chart) {
+    for (size_t k = 0; k < loops.size(); ++k)
+      if (!is_definite(chart_block<decltype(chart)>(loops[k].information)))
+        throw InputError("loop " + std::to_string(k) +
+                         ": the information matrix is singular, so its cycles cannot be judged");
+  });
   return with_chart(trajectory.space, [&](auto chart) {
     return consistent_set<decltype(chart)>(trajectory, loops, confidence);
   });

@@ -9,6 +9,8 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <variant>
 
@@ -23,6 +25,9 @@ using Cholesky = Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::Natural
 
 /// A pivot below this share of its diagonal entry is zero up to the rounding of the elimination.
 constexpr double kSingularPivot = 1e-13;
+
+/// The eigenvalues come within some percent; only the magnitude of a condition number matters.
+constexpr int kPowerIterations = 30;
 
 /// Position of every free node in a fill-reducing elimination order; -1 for a held node.
 std::vector<int> elimination_order(const PoseGraph& graph, const std::vector<bool>& held) {
@@ -67,6 +72,30 @@ class InformationFactor {
 
   bool ok() const { return ok_; }
   size_t num_nodes() const { return slot_.size(); }
+
+  double condition() const {
+    const auto L = cholesky_.matrixL();
+    const auto U = cholesky_.matrixU();
+    if (L.cols() == 0) return 1;
+    const auto norm_after = [&](const auto& multiply) {
+      // Uneven, so that no eigenvector of a regular graph is orthogonal to it.
+      Eigen::VectorXd x(L.cols());
+      for (Eigen::Index i = 0; i < x.size(); ++i)
+        x[i] = 1 + 0.5 * std::sin(static_cast<double>(i * i));
+      double norm = 0;
+      for (int k = 0; k < kPowerIterations; ++k) {
+        x /= x.norm();
+        x = multiply(x);
+        norm = x.norm();
+      }
+      return norm;
+    };
+    const double largest = norm_after(
+        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return L * Eigen::VectorXd(U * x); });
+    const double inverse_of_smallest =
+        norm_after([&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return cholesky_.solve(x); });
+    return largest * inverse_of_smallest;
+  }
 
   Matrix6d marginal(int node) const {
     std::array<double, Chart::kParameters> world;
@@ -237,6 +266,11 @@ PoseCovariance& PoseCovariance::operator=(PoseCovariance&&) noexcept = default;
 
 bool PoseCovariance::ok() const {
   return visit_factor(impl_->factor, [](const auto& factor) { return factor.ok(); });
+}
+
+std::optional<double> PoseCovariance::condition() const {
+  if (!ok()) return std::nullopt;
+  return visit_factor(impl_->factor, [](const auto& factor) { return factor.condition(); });
 }
 
 std::optional<Matrix6d> PoseCovariance::marginal(int node) const {

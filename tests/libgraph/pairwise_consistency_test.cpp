@@ -56,6 +56,12 @@ TEST(PairwiseConsistentSet, RefusesALoopOutsideTheTrajectory) {
   EXPECT_THROW(pairwise_consistent_set(line(Space::se2), loops), InputError);
 }
 
+TEST(PairwiseConsistentSet, RefusesALoopOfSingularInformation) {
+  std::vector<PoseGraphEdge> loops = {edge(0, 9, Pose{})};
+  loops[0].information(5, 5) = 0;
+  EXPECT_THROW(pairwise_consistent_set(line(Space::se2), loops), InputError);
+}
+
 std::vector<std::vector<bool>> adjacency(size_t size, std::vector<std::pair<int, int>> arcs) {
   std::vector<std::vector<bool>> adjacent(size, std::vector<bool>(size, false));
   for (const auto& [a, b] : arcs)

@@ -49,6 +49,18 @@ TEST(PoseCovariance, HalvesWhereTwoEdgesAgree) {
   EXPECT_TRUE(covariance.relative(1, 2)->isApprox(0.005 * Matrix6d::Identity(), 1e-9));
 }
 
+// 0 --- 1: the information of the one free node is diagonal with 100 and 2500.
+TEST(PoseCovariance, ConditionIsTheRatioOfTheEigenvalues) {
+  PoseGraph graph;
+  graph.poses = {Pose{}, Pose{}};
+  graph.edges = {edge(0, 1, Pose{}, 100)};
+  graph.edges[0].information(5, 5) = 2500;
+  EXPECT_NEAR(PoseCovariance(graph).condition().value(), 25, 1e-6);
+  graph.edges[0].information(0, 0) = 0;
+  EXPECT_FALSE(PoseCovariance(graph).condition().has_value());
+  EXPECT_EQ(PoseCovariance(PoseGraph{}).condition().value(), 1);
+}
+
 TEST(PoseCovariance, LeavesTheUnusedRowsOfThePlaneZero) {
   const Matrix6d marginal = PoseCovariance(chain(Space::se2)).marginal(3).value();
   for (const int k : {2, 3, 4}) {

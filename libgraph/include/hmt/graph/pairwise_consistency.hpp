@@ -15,8 +15,9 @@ namespace hmt::graph {
 /// ends.
 ///
 /// `trajectory` holds the poses and the trusted edges (odometry); `loops` are the edges to be
-/// judged. Returns one flag a loop. Exact maximum clique up to a stated size, a greedy one beyond;
-/// ties by smaller index.
+/// judged. Returns one flag a loop. Exact maximum clique as long as the search needs no more than
+/// two million branches, the largest clique found so far beyond; ties by smaller index. Throws
+/// InputError where a loop is invalid or its information is singular.
 std::vector<bool> pairwise_consistent_set(const PoseGraph& trajectory,
                                           std::span<const PoseGraphEdge> loops,
                                           double confidence = 0.99);

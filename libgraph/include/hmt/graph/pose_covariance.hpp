@@ -26,6 +26,10 @@ class PoseCovariance {
   /// nothing.
   bool ok() const;
 
+  /// Condition number of the information matrix (largest by smallest eigenvalue, metres and radians
+  /// as they are), estimated from below by power iteration; 1 where no node is free.
+  std::optional<double> condition() const;
+
   /// Covariance of T_world_node in the tangent of Pose (frame of the node); zero for a fixed node.
   std::optional<Matrix6d> marginal(int node) const;
   /// Covariance of T_a_b in the tangent of Pose (frame b).
