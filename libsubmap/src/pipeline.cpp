@@ -9,7 +9,6 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include "hmt/graph/information_loss.hpp"
@@ -30,6 +29,10 @@ constexpr double kSettledTurn_rad = 0.005;
 // Bound on the rounds for a log on which loops are still found late.
 constexpr int kMaxRounds = 5;
 const std::string kSettled = "settled";
+// Deviations of a relative pose within which registration finds the right match from the prediction
+// alone.
+constexpr double kTied_m = 0.1;
+constexpr double kTied_rad = 0.03;
 
 graph::PoseGraph graph_of_all(const Track& track, std::span<const Pose> T_world_keyframe,
                               std::span<const Constraint> constraints) {
@@ -66,21 +69,21 @@ std::vector<Constraint> of_kind(std::span<const Constraint> constraints, Constra
   return result;
 }
 
-/// Overlap of the keyframes at the present poses, and the registrations that it suggests.
+/// Overlap of the keyframes at the present poses, and the registrations that it suggests. Those of
+/// earlier rounds stay: where they ended does not depend on the poses they were started from.
 void find_overlap(MapFile& file, const Track& track, const std::string& stage,
                   const Options& options, const Run& run) {
   const std::vector<Pose> T_world_keyframe = file.load_estimate();
-  const std::vector<Constraint> known = file.load_constraints();
-  const graph::PoseCovariance covariance(graph_of_all(track, T_world_keyframe, known));
+  std::vector<Constraint> constraints = file.load_constraints();
+  const graph::PoseCovariance covariance(graph_of_all(track, T_world_keyframe, constraints));
   const PairCovariance of_pair = [&covariance](int a, int b) { return covariance.relative(a, b); };
   const graph::WeightedGraph overlap =
       overlap_graph(track.keyframes, T_world_keyframe, of_pair, file, options.overlap, run);
-  std::vector<Constraint> constraints = track.odometry;
-  const std::vector<Constraint> registered = register_overlapping(
-      track.space, track.keyframes, T_world_keyframe, overlap, of_pair, file, options.local, run);
-  const std::vector<Constraint> loops = of_kind(known, ConstraintKind::loop);
-  constraints.insert(constraints.end(), registered.begin(), registered.end());
-  constraints.insert(constraints.end(), loops.begin(), loops.end());
+  const auto registered = of_kind(constraints, ConstraintKind::registration);
+  const std::vector<Constraint> found =
+      register_overlapping(track.space, track.keyframes, T_world_keyframe, overlap, registered,
+                           of_pair, file, options.local, run);
+  constraints.insert(constraints.end(), found.begin(), found.end());
   StageWriter writer = file.begin(stage);
   writer.put_overlap(overlap.arcs());
   writer.put_constraints(solve_robustly(track.space, T_world_keyframe, constraints, run).kept);
@@ -131,7 +134,7 @@ void make_submaps(MapFile& file, const Track& track, const std::string& stage,
   const std::vector<Constraint> constraints = file.load_constraints();
   const graph::WeightedGraph overlap(static_cast<int>(track.keyframes.size()), file.load_overlap());
   const graph::Labels partition =
-      partition_keyframes(overlap, constraints, options.partition, run.threads);
+      partition_keyframes(track.space, overlap, constraints, options.partition, run.threads);
   const std::vector<Submap> submaps = optimize_submaps(
       make_submap_jobs(track.space, partition, T_world_keyframe, constraints), run);
   std::vector<Link> links =
@@ -181,17 +184,19 @@ std::vector<LoopCandidate> find_loops(const HybridMap& map, std::span<const Pose
                                       const MapFile& file, const Run& run) {
   graph::PoseGraph graph = graph_of_all(map.track, T_world_keyframe, map.constraints);
   const graph::PoseCovariance covariance(graph);
-  std::set<std::pair<int, int>> tied;
-  for (const Constraint& c : map.constraints) tied.insert({c.a, c.b});
   LoopProblem problem;
   problem.space = map.track.space;
   problem.keyframes = map.track.keyframes;
   problem.T_world_keyframe = T_world_keyframe;
   problem.submap = map.submap_of_keyframe;
-  problem.already_tied = [&](int a, int b) {
-    return std::abs(a - b) <= kVisitGap || tied.contains(std::minmax(a, b));
-  };
   problem.covariance = [&covariance](int a, int b) { return covariance.relative(a, b); };
+  // What is known this well the next round's overlap registers without a search.
+  problem.already_tied = [&problem](int a, int b) {
+    if (std::abs(a - b) <= kVisitGap) return true;
+    const auto known = problem.covariance(a, b);
+    return known && known->topLeftCorner<3, 3>().trace() < kTied_m * kTied_m &&
+           known->bottomRightCorner<3, 3>().trace() < kTied_rad * kTied_rad;
+  };
   problem.observations = &file;
   return consistent_loops(search_loops(problem, run), graph);
 }

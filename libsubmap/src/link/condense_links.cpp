@@ -5,8 +5,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -44,19 +42,12 @@ Pose frames_by_constraint(const Submap& a, const Submap& b, const Constraint& c)
   return *pose_in(a, c.b) * c.T_a_b.inverse() * pose_in(b, c.a)->inverse();
 }
 
-/// The constraint that leaves the least unknown: largest smallest eigenvalue of its information.
+/// The constraint that leaves the least unknown.
 const Constraint& firmest(std::span<const Constraint> constraints, const std::vector<int>& evidence,
                           Space space) {
-  const auto firmness = [space](const Constraint& c) {
-    if (space == Space::se3)
-      return Eigen::SelfAdjointEigenSolver<Matrix6d>(c.information).eigenvalues()[0];
-    const Eigen::Array3i rows(0, 1, 5);
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c.information(rows, rows))
-        .eigenvalues()[0];
-  };
   const auto best = std::max_element(evidence.begin(), evidence.end(), [&](int l, int r) {
-    return firmness(constraints[static_cast<size_t>(l)]) <
-           firmness(constraints[static_cast<size_t>(r)]);
+    return firmness(constraints[static_cast<size_t>(l)], space) <
+           firmness(constraints[static_cast<size_t>(r)], space);
   });
   return constraints[static_cast<size_t>(*best)];
 }
@@ -81,8 +72,7 @@ graph::PoseGraph joint_graph(Space space, const Submap& a, const Submap& b, cons
   std::vector<Constraint> used;
   for (const std::vector<int>* ids : {&a.constraints, &b.constraints, &evidence})
     for (const int c : *ids) used.push_back(constraints[static_cast<size_t>(c)]);
-  graph::PoseGraph graph = keyframe_graph(space, keyframes, poses, used);
-  return graph;
+  return keyframe_graph(space, keyframes, poses, used);
 }
 
 int node_of(const Submap& a, const Submap& b, int keyframe) {

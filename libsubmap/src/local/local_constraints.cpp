@@ -50,7 +50,8 @@ std::vector<std::vector<Neighbor>> visits(std::span<const Neighbor> neighbors, d
 
 /// Pairs a < b that are worth a registration, ordered.
 std::vector<std::pair<int, int>> pairs_to_register(const graph::WeightedGraph& overlap,
-                                                   double min_overlap) {
+                                                   double min_overlap,
+                                                   std::span<const Constraint> known) {
   std::set<std::pair<int, int>> pairs;
   for (int i = 0; i < overlap.num_nodes(); ++i) {
     auto runs = visits(overlap.neighbors(i), min_overlap);
@@ -68,6 +69,7 @@ std::vector<std::pair<int, int>> pairs_to_register(const graph::WeightedGraph& o
       for (size_t k = 0; k < take; ++k) pairs.insert(std::minmax(i, run[k].node));
     }
   }
+  for (const Constraint& c : known) pairs.erase({c.a, c.b});
   return {pairs.begin(), pairs.end()};
 }
 
@@ -125,9 +127,11 @@ class PairRegistration {
 
 std::vector<Constraint> register_overlapping(
     Space space, std::span<const Keyframe> keyframes, std::span<const Pose> T_world_keyframe,
-    const graph::WeightedGraph& overlap, const PairCovariance& covariance,
-    const ObservationStore& observations, const LocalConstraintOptions& options, const Run& run) {
-  const std::vector<std::pair<int, int>> pairs = pairs_to_register(overlap, options.min_overlap);
+    const graph::WeightedGraph& overlap, std::span<const Constraint> known,
+    const PairCovariance& covariance, const ObservationStore& observations,
+    const LocalConstraintOptions& options, const Run& run) {
+  const std::vector<std::pair<int, int>> pairs =
+      pairs_to_register(overlap, options.min_overlap, known);
   const auto surface_of = [&](int k) {
     return make_surface(*observations.load(keyframes[static_cast<size_t>(k)].observation));
   };

@@ -3,6 +3,7 @@
 #include "hmt/submap/partition/submap_partition.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -32,16 +33,6 @@ class Components {
   std::vector<int> parent_;
 };
 
-/// Groups 0.. in the order of their smallest keyframe.
-graph::Labels canonical(const graph::Labels& labels) {
-  std::map<int, int> number;
-  graph::Labels result;
-  result.reserve(labels.size());
-  for (const int label : labels)
-    result.push_back(number.try_emplace(label, static_cast<int>(number.size())).first->second);
-  return result;
-}
-
 graph::Labels connected_pieces(const graph::Labels& groups,
                                std::span<const Constraint> constraints) {
   Components components(groups.size());
@@ -50,7 +41,7 @@ graph::Labels connected_pieces(const graph::Labels& groups,
       components.join(c.a, c.b);
   graph::Labels pieces(groups.size());
   for (size_t i = 0; i < groups.size(); ++i) pieces[i] = components.root(static_cast<int>(i));
-  return canonical(pieces);
+  return graph::canonical_labels(pieces);
 }
 
 /// The group that shares most constraints with group `piece`; the piece itself if there is none.
@@ -75,19 +66,22 @@ graph::Labels without_small_pieces(graph::Labels labels, std::span<const Constra
     const int target = best_neighbor(labels, constraints, piece);
     std::replace(labels.begin(), labels.end(), piece, target);
   }
-  return canonical(labels);
+  return graph::canonical_labels(labels);
 }
 
 }  // namespace
 
-graph::Labels partition_keyframes(const graph::WeightedGraph& overlap,
+graph::Labels partition_keyframes(Space space, const graph::WeightedGraph& overlap,
                                   std::span<const Constraint> constraints,
                                   const SubmapPartitionOptions& options, int threads) {
   graph::PartitionOptions recursion;
   recursion.tau = options.tau;
   recursion.min_size = options.min_keyframes;
   const graph::Labels groups = graph::recursive_partition(overlap, recursion, threads).labels;
-  return without_small_pieces(connected_pieces(groups, constraints), constraints);
+  std::vector<Constraint> firm;
+  std::copy_if(constraints.begin(), constraints.end(), std::back_inserter(firm),
+               [space](const Constraint& c) { return is_firm(c, space); });
+  return without_small_pieces(connected_pieces(groups, firm), firm);
 }
 
 }  // namespace hmt::submap

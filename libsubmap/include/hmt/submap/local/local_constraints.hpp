@@ -26,6 +26,7 @@ struct LocalConstraintOptions {
 std::vector<Constraint> register_overlapping(Space space, std::span<const Keyframe> keyframes,
                                              std::span<const Pose> T_world_keyframe,
                                              const graph::WeightedGraph& overlap,
+                                             std::span<const Constraint> known,
                                              const PairCovariance& covariance,
                                              const ObservationStore& observations,
                                              const LocalConstraintOptions& options, const Run& run);

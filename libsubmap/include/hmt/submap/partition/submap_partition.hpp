@@ -19,11 +19,11 @@ struct SubmapPartitionOptions {
 };
 
 /// Submap of each keyframe: the recursive min-Ncut partition of Omega, then made fit for local
-/// optimization. A group whose keyframes the constraints do not tie together falls into its
-/// connected pieces; a piece of fewer than three keyframes joins the submap that it shares most
+/// optimization. A group whose keyframes firm constraints (is_firm) do not tie together falls into
+/// its connected pieces; a piece of fewer than three keyframes joins the submap that it shares most
 /// constraints with (by count; the smaller id on a tie). So every submap is connected by its own
 /// constraints, and every keyframe is in exactly one.
-graph::Labels partition_keyframes(const graph::WeightedGraph& overlap,
+graph::Labels partition_keyframes(Space space, const graph::WeightedGraph& overlap,
                                   std::span<const Constraint> constraints,
                                   const SubmapPartitionOptions& options, int threads);
 

@@ -38,6 +38,16 @@ inline bool is_within_visit(const Constraint& c) {
   return c.kind != ConstraintKind::loop && c.b - c.a <= kVisitGap;
 }
 
+/// Smallest eigenvalue of the information over the directions that the space has: what the least
+/// known direction is known to, 1/m^2 or 1/rad^2. Zero where a direction is free.
+double firmness(const Constraint& constraint, Space space);
+
+/// True if the constraint alone ties its two keyframes: no direction is left freer than a metre or
+/// a radian, beyond which a linearization says nothing.
+inline bool is_firm(const Constraint& constraint, Space space) {
+  return firmness(constraint, space) >= 1;
+}
+
 /// Covariance of T_a_b of two keyframes by what is known of the trajectory (tangent of Pose, frame
 /// b); nothing where they are not connected.
 using PairCovariance = std::function<std::optional<Matrix6d>(int a, int b)>;
