@@ -347,6 +347,7 @@ BuildResult build_map(const std::filesystem::path& log, const std::filesystem::p
   origin.log_path = log.string();
   origin.log_digest = log_digest(log);
   origin.options_json = to_json(options);
+  origin.program_version = HMTMAP_VERSION;
   BuildResult result{MapFile::open_for_run(map, origin, existing), {}};
   MapFile& file = result.file;
   Stages stages(file, run);

@@ -63,4 +63,12 @@ void write_tum(const std::filesystem::path& path, std::span<const StampedPose> t
   file.commit();
 }
 
+std::vector<StampedPose> stamped_trajectory(const HybridMap& map) {
+  const std::vector<Pose> T_world_robot = world_trajectory(map);
+  std::vector<StampedPose> trajectory;
+  for (size_t k = 0; k < T_world_robot.size(); ++k)
+    trajectory.push_back({map.track.observations[k].stamp_s, T_world_robot[k]});
+  return trajectory;
+}
+
 }  // namespace hmt::submap

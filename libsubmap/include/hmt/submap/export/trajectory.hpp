@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hmt/graph/pose.hpp"
+#include "hmt/submap/map/hybrid_map.hpp"
 
 namespace hmt::submap {
 
@@ -26,5 +27,8 @@ std::vector<StampedPose> read_tum(const std::filesystem::path& path);
 /// Writes a TUM file, all or nothing. Stamps have as many decimals as give the same number when
 /// read again, six at least; poses have nine.
 void write_tum(const std::filesystem::path& path, std::span<const StampedPose> trajectory);
+
+/// T_world_robot of every observation of the map with the log's own stamps, in the order of the log.
+std::vector<StampedPose> stamped_trajectory(const HybridMap& map);
 
 }  // namespace hmt::submap
