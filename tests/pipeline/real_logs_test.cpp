@@ -34,7 +34,7 @@ TEST_P(RealLog, IsMappedWithinItsBounds) {
   const std::string stem = std::string("laser2d/") + bound.log;
   HMT_REQUIRE_REAL_DATA(stem + ".clf.bz2");
   const test::TemporaryFolder folder;
-  Run run;
+  hmt::submap::Run run;
   run.threads = 2;
   const BuildResult result =
       build_map(test::data_dir() / (stem + ".clf.bz2"), folder.path() / "map.hmt", {},
