@@ -76,7 +76,10 @@ void find_overlap(MapFile& file, const Track& track, const std::string& stage,
   const std::vector<Pose> T_world_keyframe = file.load_estimate();
   std::vector<Constraint> constraints = file.load_constraints();
   const graph::PoseCovariance covariance(graph_of_all(track, T_world_keyframe, constraints));
-  const PairCovariance of_pair = [&covariance](int a, int b) { return covariance.relative(a, b); };
+  // Overlap asks for the pairs of one keyframe after the other.
+  const PairCovariance of_pair = [&covariance](int a, int b) {
+    return covariance.relative_by_column(a, b);
+  };
   const graph::WeightedGraph overlap =
       overlap_graph(track.keyframes, T_world_keyframe, of_pair, file, options.overlap, run);
   const auto registered = of_kind(constraints, ConstraintKind::registration);
