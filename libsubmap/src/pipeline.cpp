@@ -163,13 +163,21 @@ std::vector<Pose> keyframe_poses(const HybridMap& map) {
   return T_world_keyframe;
 }
 
-bool stand(std::span<const Pose> before, std::span<const Pose> after) {
+/// Largest difference between two sets of poses of the keyframes.
+struct Move {
+  double metres = 0;
+  double radians = 0;
+  bool is_settled() const { return metres <= kSettledMove_m && radians <= kSettledTurn_rad; }
+};
+
+Move largest_move(std::span<const Pose> before, std::span<const Pose> after) {
+  Move largest;
   for (size_t k = 0; k < before.size(); ++k) {
     const Vector6d move = graph::boxminus(after[k], before[k]);
-    if (move.head<3>().norm() > kSettledMove_m || move.tail<3>().norm() > kSettledTurn_rad)
-      return false;
+    largest.metres = std::max(largest.metres, move.head<3>().norm());
+    largest.radians = std::max(largest.radians, move.tail<3>().norm());
   }
-  return true;
+  return largest;
 }
 
 /// The same submaps and links with the keyframes at the given poses.
@@ -245,7 +253,10 @@ void refine(MapFile& file, HybridMap map, std::vector<LoopCandidate> candidates,
       graph::optimize(graph_of_all(map.track, keyframe_poses(map), map.constraints), options).poses;
   move_submaps(map, T_world_keyframe);
   candidates.insert(candidates.begin(), map.loops.begin(), map.loops.end());
-  const bool settled = last_round || stand(file.load_estimate(), T_world_keyframe);
+  const Move move = largest_move(file.load_estimate(), T_world_keyframe);
+  run.log_info(stage + ": keyframes moved by up to " + std::to_string(move.metres) + " m, " +
+               std::to_string(move.radians) + " rad");
+  const bool settled = last_round || move.is_settled();
   MapSolution solution = file.load_solution();
   solution.T_world_submap = map.T_world_submap;
   StageWriter writer = file.begin(settled ? kSettled : stage);
