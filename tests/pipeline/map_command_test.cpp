@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <vector>
 
 #include "run_command.hpp"
 
@@ -56,7 +57,7 @@ TEST_F(MapCommand, GivesTheSameBytesOnTwoThreads) {
 
 TEST_F(MapCommand, GoesOnAfterAKillAndEndsWithTheSameMap) {
   // A shell kills the program after so many seconds, from while it reads to while it draws.
-  for (const std::string& pause : {"0.1", "0.3", "0.6", "1.0", "1.6"}) {
+  for (const std::string& pause : std::vector<std::string>{"0.1", "0.3", "0.6", "1.0", "1.6"}) {
     const std::string map = path("killed" + pause + ".hmt");
     const std::string command = "timeout -s KILL " + pause + " '" HMTMAP_PROGRAM "' -q map " +
                                 path("log") + " -o " + map + " 2>/dev/null";
@@ -86,7 +87,7 @@ TEST_F(MapCommand, RefusesToGoOnWithOtherOptions) {
 TEST_F(MapCommand, RefusesWhatIsNotALog) {
   std::ofstream(path("empty"));
   std::ofstream(path("junk"), std::ios::binary) << std::string(1000, '\xff');
-  for (const std::string& name : {"empty", "junk", "missing", "."}) {
+  for (const std::string& name : std::vector<std::string>{"empty", "junk", "missing", "."}) {
     const CommandResult result = run_hmtmap("map " + path(name) + " -o " + path("never.hmt"));
     EXPECT_EQ(result.code, 1) << name;
     EXPECT_THAT(result.err, HasSubstr("error")) << name;

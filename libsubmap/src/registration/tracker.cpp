@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "information.hpp"
+#include "seen_through.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -44,6 +45,8 @@ constexpr int kMostRefused = 10;
 // Far from the odometry's guess nearly all must fit, and no other place so nearly as well.
 constexpr double kLeastFarInlierFraction = 0.8;
 constexpr double kAmbiguousShare = 0.85;
+// ... and the odometry's own pose must be impossible: a view into a new room is not.
+constexpr double kImpossibleShare = 0.3;
 constexpr double kLeastWindow_m = 0.5, kLargestWindow_m = 2.0;
 constexpr double kLeastWindow_rad = 0.3, kLargestWindow_rad = 1.0;
 
@@ -156,6 +159,8 @@ Registration Tracker::search(const Surface& surface, const Prediction& predictio
   };
   const Registration near = best_of(matches_within(window), surface, prediction, first);
   if (credit(near, prediction) >= kLeastInlierFraction) return near;
+  if (seen_through_share(surface, map_.target(), prediction.T_track_robot) < kImpossibleShare)
+    return near;
   const std::vector<CorrelativeMatch> far = matches_within({kLargestWindow_m, std::numbers::pi});
   if (far.size() > 1 && far[1].score > kAmbiguousShare * far[0].score) return near;
   const Registration best = best_of(far, surface, prediction, near);

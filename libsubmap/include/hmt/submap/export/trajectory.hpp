@@ -28,7 +28,8 @@ std::vector<StampedPose> read_tum(const std::filesystem::path& path);
 /// read again, six at least; poses have nine.
 void write_tum(const std::filesystem::path& path, std::span<const StampedPose> trajectory);
 
-/// T_world_robot of every observation of the map with the log's own stamps, in the order of the log.
+/// T_world_robot of every observation of the map with the log's own stamps, in the order of the
+/// log.
 std::vector<StampedPose> stamped_trajectory(const HybridMap& map);
 
 }  // namespace hmt::submap

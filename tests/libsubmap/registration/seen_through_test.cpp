@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seen_through.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hmt::submap {
+namespace {
+
+/// A wall x = `at_m` of points a decimetre apart, seen from the origin.
+Surface wall(double at_m) {
+  Surface surface;
+  for (int k = -20; k <= 20; ++k) {
+    surface.points_robot.emplace_back(at_m, 0.1 * k, 0);
+    surface.normals_robot.emplace_back(-1, 0, 0);
+    surface.sigma_m.push_back(0.01);
+    surface.normal_sigma_rad.push_back(0.01);
+    surface.spacing_m.push_back(0.1);
+  }
+  return surface;
+}
+
+RegistrationTarget target_of(const Surface& surface) {
+  const RegistrationTarget::Placed placed[] = {{Pose{}, &surface}};
+  return RegistrationTarget(placed);
+}
+
+TEST(SeenThrough, NothingOfWhatIsSeenAgain) {
+  EXPECT_EQ(seen_through_share(wall(3), target_of(wall(3)), Pose{}), 0);
+}
+
+TEST(SeenThrough, AllOfAWallThatTheBeamsPass) {
+  EXPECT_EQ(seen_through_share(wall(5), target_of(wall(3)), Pose{}), 1);
+}
+
+TEST(SeenThrough, NothingOfAWallBehindTheOneThatIsMeasured) {
+  EXPECT_EQ(seen_through_share(wall(3), target_of(wall(5)), Pose{}), 0);
+}
+
+TEST(SeenThrough, NothingOfAWallOutOfView) {
+  EXPECT_EQ(seen_through_share(wall(3), target_of(wall(3)), Pose::planar(0, 0, 3.1)), 0);
+}
+
+}  // namespace
+}  // namespace hmt::submap
