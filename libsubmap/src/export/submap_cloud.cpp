@@ -45,12 +45,12 @@ std::vector<Eigen::Vector3f> submap_cloud(std::span<const PlacedObservation> obs
       add_points(reading, placed.T_frame_robot, resolution_m, grid);
   std::vector<Eigen::Vector3d> means;
   grid.for_each([&](const CellIndex&, const MeanCell& cell) {
-    if (cell.points > 0) means.push_back(cell.sum / static_cast<double>(cell.points));
+    if (cell.points > 0) means.emplace_back(cell.sum / static_cast<double>(cell.points));
   });
   const std::vector<bool> occupied = in_occupied_cells(ot_bytes, means);
   std::vector<Eigen::Vector3f> cloud;
   for (size_t k = 0; k < means.size(); ++k)
-    if (occupied[k]) cloud.push_back(means[k].cast<float>());
+    if (occupied[k]) cloud.emplace_back(means[k].cast<float>());
   return cloud;
 }
 

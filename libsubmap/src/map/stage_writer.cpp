@@ -77,7 +77,7 @@ StageWriter::~StageWriter() {
   impl_.reset();
 }
 
-StageWriter MapFile::begin(std::string stage) {
+StageWriter MapFile::begin(const std::string& stage) {
   StageWriter writer(std::make_unique<StageWriter::Impl>(*impl_, stage));
   if (finished(stage))
     throw InputError(path().string() + ": stage " + stage +

@@ -76,7 +76,7 @@ class MapFile : public ObservationStore {
   bool complete() const;
   /// Begins a stage; nothing of it is in the file before its commit. One at a time; the map file
   /// must outlive it and stay where it is.
-  StageWriter begin(std::string stage);
+  StageWriter begin(const std::string& stage);
 
   /// From the file, through a cache of the recently used ones (64 MB).
   std::shared_ptr<const Observation> load(int64_t index) const override;
