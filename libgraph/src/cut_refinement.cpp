@@ -18,7 +18,7 @@ constexpr int kMaxStall = 60;
 constexpr double kMinGain = 1e-12;
 // Up to this size looking through all nodes for the best is faster than a heap, whose entries
 // change with every move.
-constexpr size_t kMaxScanSize = 1000;
+constexpr size_t kMaxSearchSize = 1000;
 constexpr double kNotQueued = -std::numeric_limits<double>::infinity();
 
 // cut(A)/assoc(A) + cut(B)/assoc(B); the cut between the sides is counted in both.
@@ -40,7 +40,7 @@ double measure(const CsrGraph& graph, const Sides& sides, const std::vector<doub
 class Refinement {
  public:
   Refinement(const CsrGraph& graph, Sides& sides, const std::vector<double>& outside)
-      : graph_(graph), sides_(sides), outside_(outside), scans_(sides.size() <= kMaxScanSize) {
+      : graph_(graph), sides_(sides), outside_(outside), searches_(sides.size() <= kMaxSearchSize) {
     to_other_.assign(sides.size(), 0);
     for (size_t i = 0; i < sides.size(); ++i) {
       ++count_[sides[i]];
@@ -87,7 +87,7 @@ class Refinement {
 
   void push(size_t i) {
     key_[i] = gain(i);
-    if (scans_) return;
+    if (searches_) return;
     queue_.push_back({key_[i], i});
     std::push_heap(queue_.begin(), queue_.end());
   }
@@ -96,7 +96,7 @@ class Refinement {
   // of nodes where the queue is empty.
   size_t pop() {
     size_t best = key_.size();
-    if (scans_) {
+    if (searches_) {
       const auto largest = std::max_element(key_.begin(), key_.end());
       if (*largest > kNotQueued) best = static_cast<size_t>(largest - key_.begin());
     }
@@ -172,7 +172,7 @@ class Refinement {
   std::array<double, 2> cut_slope_ = {0, 0};    // d objective / d cut of a side
   std::array<double, 2> assoc_slope_ = {0, 0};  // -d objective / d assoc of a side
   std::vector<double> to_other_;                // weight from the node to the other side
-  bool scans_;
+  bool searches_;
   std::vector<double> key_;  // gain under which the node is queued
   std::vector<uint8_t> locked_;
   std::vector<Entry> queue_;  // heap; entries whose gain is no longer the key are void

@@ -23,7 +23,7 @@ void append_reading(const Reading& reading, Surface& surface) {
   const Eigen::Matrix3d R = reading.T_robot_sensor.rotation_matrix();
   for (size_t i = 0; i < points.size(); ++i) {
     surface.points_robot.push_back(reading.T_robot_sensor * points[i]);
-    surface.normals_robot.push_back(R * normals[i].normal);
+    surface.normals_robot.emplace_back(R * normals[i].normal);
     surface.sigma_m.push_back(normals[i].sigma_m);
     surface.normal_sigma_rad.push_back(normals[i].normal_sigma_rad);
     surface.spacing_m.push_back(normals[i].spacing_m);
