@@ -215,8 +215,7 @@ std::vector<LoopCandidate> find_loops(const HybridMap& map, std::span<const Pose
 std::vector<Constraint> with_loops(std::vector<Constraint> constraints,
                                    std::span<const LoopCandidate> candidates) {
   for (const LoopCandidate& c : candidates)
-    if (c.verdict == LoopVerdict::accepted)
-      constraints.push_back({c.a, c.b, ConstraintKind::loop, c.T_a_b, c.information});
+    if (c.verdict == LoopVerdict::accepted) constraints.push_back(as_constraint(c));
   return constraints;
 }
 

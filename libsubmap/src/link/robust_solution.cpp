@@ -10,15 +10,24 @@
 
 namespace hmt::submap {
 
+Constraint as_constraint(const LoopCandidate& loop) {
+  return {loop.a, loop.b, ConstraintKind::loop, loop.T_a_b, loop.information};
+}
+
 std::vector<LoopCandidate> consistent_loops(std::vector<LoopCandidate> candidates,
                                             const graph::PoseGraph& trajectory) {
   std::vector<size_t> accepted;
   std::vector<graph::PoseGraphEdge> edges;
   for (size_t k = 0; k < candidates.size(); ++k) {
-    if (candidates[k].verdict != LoopVerdict::accepted) continue;
+    LoopCandidate& loop = candidates[k];
+    if (loop.verdict != LoopVerdict::accepted) continue;
+    if (!is_firm(as_constraint(loop), trajectory.space)) {
+      loop.verdict = LoopVerdict::unconfirmed;
+      loop.reason = "the registration leaves a direction free";
+      continue;
+    }
     accepted.push_back(k);
-    edges.push_back(
-        {candidates[k].a, candidates[k].b, candidates[k].T_a_b, candidates[k].information});
+    edges.push_back({loop.a, loop.b, loop.T_a_b, loop.information});
   }
   const std::vector<bool> consistent = graph::pairwise_consistent_set(trajectory, edges);
   for (size_t k = 0; k < accepted.size(); ++k) {

@@ -89,5 +89,16 @@ TEST(ConsistentLoops, MarksTheOneThatDisagrees) {
   EXPECT_EQ(judged[3].verdict, LoopVerdict::accepted);
 }
 
+TEST(ConsistentLoops, RefusesALoopThatLeavesADirectionFree) {
+  const TwoLaps laps;
+  std::vector<int> all(80);
+  for (int i = 0; i < 80; ++i) all[static_cast<size_t>(i)] = i;
+  const graph::PoseGraph trajectory =
+      keyframe_graph(Space::se2, all, laps.T_world_keyframe, laps.constraints);
+  LoopCandidate corridor = laps.loop(2, 42, laps.true_pose(2, 42));
+  corridor.information(0, 0) = 0;
+  EXPECT_EQ(consistent_loops({corridor}, trajectory).at(0).verdict, LoopVerdict::unconfirmed);
+}
+
 }  // namespace
 }  // namespace hmt::submap

@@ -12,9 +12,13 @@
 
 namespace hmt::submap {
 
-/// Judges the accepted candidates together: those outside the largest pairwise consistent set
-/// [Mangelson 2018] become `inconsistent`. `trajectory` holds the keyframes and the constraints
-/// that are not in doubt. Verdicts other than `accepted` stay as they are.
+/// The constraint that a loop closure is worth.
+Constraint as_constraint(const LoopCandidate& loop);
+
+/// Judges the accepted candidates together: those that are not firm become `unconfirmed`, those
+/// outside the largest pairwise consistent set [Mangelson 2018] become `inconsistent`. `trajectory`
+/// holds the keyframes and the constraints that are not in doubt. Verdicts other than `accepted`
+/// stay as they are.
 std::vector<LoopCandidate> consistent_loops(std::vector<LoopCandidate> candidates,
                                             const graph::PoseGraph& trajectory);
 
