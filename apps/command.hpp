@@ -18,9 +18,9 @@ enum class ProgressMode { automatic, plain, none };
 
 /// Options that every command has.
 struct Globals {
-  bool json = false;  ///< one JSON object on stdout, logs on stderr
-  int threads = 0;    ///< resolved to >= 1 before a command runs
-  bool verbose = false;
+  bool json = false;     ///< one JSON object on stdout, logs on stderr
+  int threads = 0;       ///< resolved to >= 1 before a command runs
+  bool verbose = false;  ///< messages with the time of day
   bool quiet = false;
   ProgressMode progress = ProgressMode::automatic;
 };
