@@ -17,6 +17,9 @@ using graph::Pose;
 using graph::Space;
 using graph::Vector6d;
 
+/// Identity of a landmark that the log does not name.
+inline constexpr int64_t kUnknownLandmark = -1;
+
 /// What one range sensor saw at one stamp: a planar scan (z = 0 in the sensor frame) or a cloud.
 struct Reading {
   int sensor = 0;  ///< which sensor of the log, 0..
@@ -31,12 +34,33 @@ struct Reading {
   bool operator==(const Reading&) const = default;
 };
 
+/// A point feature that one sensor saw.
+struct Landmark {
+  /// Identity that the log gives it, 0..; kUnknownLandmark where the log gives none.
+  int64_t id = kUnknownLandmark;
+  Eigen::Vector3d position_sensor = Eigen::Vector3d::Zero();    ///< sensor frame, metres
+  Eigen::Matrix3d covariance_sensor = Eigen::Matrix3d::Zero();  ///< of the position, m^2
+  std::vector<float> descriptor;  ///< of its appearance; empty if there is none
+
+  bool operator==(const Landmark&) const = default;
+};
+
+/// The landmarks that one sensor saw at one stamp. Of a planar sensor z is 0, with variance 0.
+struct LandmarkReading {
+  int sensor = 0;  ///< which sensor of the log, 0..; range sensors are counted with them
+  Pose T_robot_sensor;
+  std::vector<Landmark> landmarks;
+
+  bool operator==(const LandmarkReading&) const = default;
+};
+
 /// What all sensors saw at one stamp.
 struct Observation {
-  int64_t index = 0;   ///< position in the log, 0..
-  double stamp_s = 0;  ///< the log's own stamp, as it was
-  Pose T_odom_robot;   ///< by the log's odometry at the stamp
-  std::vector<Reading> readings;
+  int64_t index = 0;                               ///< position in the log, 0..
+  double stamp_s = 0;                              ///< the log's own stamp, as it was
+  Pose T_odom_robot;                               ///< by the log's odometry at the stamp
+  std::vector<Reading> readings;                   ///< of range sensors
+  std::vector<LandmarkReading> landmark_readings;  ///< of sensors of landmarks
 
   bool operator==(const Observation&) const = default;
 };
