@@ -97,7 +97,8 @@ inline submap::Observation sample_observation(int64_t index) {
   return {index,
           100.1 + 0.1 * static_cast<double>(index),
           odd_pose(static_cast<int>(index)),
-          {reading}};
+          {reading},
+          {}};
 }
 
 inline submap::MapOrigin sample_origin() {
