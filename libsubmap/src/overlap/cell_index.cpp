@@ -8,8 +8,6 @@
 namespace hmt::submap {
 namespace {
 
-// Large against the gates of most points, small against rooms.
-constexpr float kCellSize_m = 1.0F;
 // Cells are numbered from the middle of 21 bits an axis: +-1000 km.
 constexpr int kAxisBits = 21;
 constexpr int kMiddle = 1 << (kAxisBits - 1);
@@ -30,44 +28,28 @@ CellCoordinates coordinates_of(uint64_t key) {
   return {axis(2 * kAxisBits), axis(kAxisBits), axis(0)};
 }
 
-CellCoordinates cell_at(const Eigen::Vector3f& p) {
-  const auto axis = [](float x) {
-    return static_cast<int>(
-        std::clamp(std::floor(x / kCellSize_m), -1.0F * kMiddle, 1.0F * kMiddle));
+CellCoordinates cell_at(const Eigen::Vector3f& p, float cell_m) {
+  const auto axis = [cell_m](float x) {
+    return static_cast<int>(std::clamp(std::floor(x / cell_m), -1.0F * kMiddle, 1.0F * kMiddle));
   };
   return {axis(p.x()), axis(p.y()), axis(p.z())};
 }
 
-/// Sorts runs and joins those that overlap or touch.
-template <typename Run>
-std::vector<Run> join(std::vector<Run> runs) {
-  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.begin < b.begin; });
-  std::vector<Run> joined;
-  for (const Run& run : runs) {
-    if (joined.empty() || run.begin > joined.back().end) {
-      joined.push_back(run);
-    } else {
-      joined.back().end = std::max(joined.back().end, run.end);
-    }
-  }
-  return joined;
-}
-
 /// Least square distance of points of two cells whose numbers differ by so much.
-float square_gap(int dx, int dy, int dz) {
-  const auto gap = [](int d) {
-    return kCellSize_m * static_cast<float>(std::max(0, std::abs(d) - 1));
+float square_gap(int dx, int dy, int dz, float cell_m) {
+  const auto gap = [cell_m](int d) {
+    return cell_m * static_cast<float>(std::max(0, std::abs(d) - 1));
   };
   return gap(dx) * gap(dx) + gap(dy) * gap(dy) + gap(dz) * gap(dz);
 }
 
 }  // namespace
 
-std::vector<CellCount> count_cells(const SensedPoints& points) {
+std::vector<CellCount> count_cells(std::span<const SensedPoint> points, float cell_m) {
   std::vector<CellCount> all;
-  all.reserve(points.points().size());
-  for (const SensedPoint& p : points.points())
-    all.push_back({key_of(cell_at(p.position)), 1, p.gate});
+  all.reserve(points.size());
+  for (const SensedPoint& p : points)
+    all.push_back({key_of(cell_at(p.position, cell_m)), 1, p.gate});
   std::sort(all.begin(), all.end(),
             [](const CellCount& a, const CellCount& b) { return a.cell < b.cell; });
   std::vector<CellCount> cells;
@@ -82,13 +64,9 @@ std::vector<CellCount> count_cells(const SensedPoints& points) {
   return cells;
 }
 
-CellIndex::CellIndex(std::vector<std::vector<CellCount>> readings, double pose_gate_m2)
-    : readings_(std::move(readings)) {
-  for (const auto& cells : readings_) {
-    int points = 0;
-    for (const CellCount& cell : cells) points += cell.points;
-    num_points_.push_back(points);
-  }
+CellIndex::CellIndex(std::vector<std::vector<CellCount>> readings, float cell_m,
+                     double pose_gate_m2)
+    : readings_(std::move(readings)), cell_m_(cell_m) {
   collect_cells();
   find_near(pose_gate_m2);
 }
@@ -111,11 +89,7 @@ void CellIndex::collect_cells() {
     if (cells_.empty() || cells_.back().key != entry.key) cells_.push_back({entry.key, 0, {}, {}});
     Cell& cell = cells_.back();
     cell.gate = std::max(cell.gate, entry.gate);
-    if (!cell.inside.empty() && cell.inside.back().end == entry.reading) {
-      cell.inside.back().end = entry.reading + 1;
-    } else {
-      cell.inside.push_back({entry.reading, entry.reading + 1});
-    }
+    append(cell.inside, entry.reading);
   }
 }
 
@@ -123,7 +97,7 @@ void CellIndex::find_near(double pose_gate_m2) {
   // Each pair of near cells is found from the one of the larger gate.
   for (Cell& cell : cells_) {
     const float reach = std::sqrt(2 * cell.gate + static_cast<float>(pose_gate_m2));
-    const int steps = 1 + static_cast<int>(std::floor(reach / kCellSize_m));
+    const int steps = 1 + static_cast<int>(std::floor(reach / cell_m_));
     const auto [x, y, z] = coordinates_of(cell.key);
     for (int dx = -steps; dx <= steps; ++dx) {
       for (int dy = -steps; dy <= steps; ++dy) {
@@ -144,7 +118,7 @@ void CellIndex::link_column(Cell& cell, const CellCoordinates& first, const Cell
     if (other->gate > cell.gate) continue;
     const auto [ox, oy, oz] = coordinates_of(other->key);
     const float reach = cell.gate + other->gate + static_cast<float>(pose_gate_m2);
-    if (square_gap(x - ox, y - oy, z - oz) > reach) continue;
+    if (square_gap(x - ox, y - oy, z - oz, cell_m_) > reach) continue;
     cell.near.insert(cell.near.end(), other->inside.begin(), other->inside.end());
     if (other->gate < cell.gate) {
       other->near.insert(other->near.end(), cell.inside.begin(), cell.inside.end());
@@ -152,29 +126,12 @@ void CellIndex::link_column(Cell& cell, const CellCoordinates& first, const Cell
   }
 }
 
-std::vector<CellIndex::Bound> CellIndex::bounds(int reading) const {
-  struct Step {
-    int at;
-    int change;
-  };
-  std::vector<Step> steps;
+void CellIndex::add_matches(int reading, BoundSum& sum) const {
   for (const CellCount& count : readings_[static_cast<size_t>(reading)]) {
     const auto cell = std::lower_bound(cells_.begin(), cells_.end(), count.cell,
                                        [](const Cell& c, uint64_t key) { return c.key < key; });
-    for (const Run& run : cell->near) {
-      steps.push_back({run.begin, count.points});
-      steps.push_back({run.end, -count.points});
-    }
+    sum.add(cell->near, count.points);
   }
-  std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.at < b.at; });
-  std::vector<Bound> bounds;
-  int matches = 0;
-  for (size_t i = 0; i < steps.size(); ++i) {
-    matches += steps[i].change;
-    if (i + 1 == steps.size() || steps[i + 1].at == steps[i].at || matches == 0) continue;
-    bounds.push_back({steps[i].at, steps[i + 1].at, matches});
-  }
-  return bounds;
 }
 
 }  // namespace hmt::submap

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "match_bounds.hpp"
 #include "sensed_points.hpp"
 
 namespace hmt::submap {
@@ -20,41 +22,28 @@ struct CellCount {
   float gate = 0;  ///< the largest of theirs
 };
 
-/// The cells that a reading has points in, by increasing cell.
-std::vector<CellCount> count_cells(const SensedPoints& points);
+/// The cells of the given side that points lie in, by increasing cell.
+std::vector<CellCount> count_cells(std::span<const SensedPoint> points, float cell_m);
 
-/// Finds the pairs of readings of one sensor whose sensed regions meet and bounds their matches
-/// from above, without looking at pairs of points or at pairs that do not meet: an inverted index
-/// from cells to the readings that have points there. Readings are kept as runs of consecutive
-/// numbers, since consecutive keyframes see the same cells.
+/// Bounds from above how many points of readings of one sensor can match, without looking at pairs
+/// of points or at pairs of readings that do not meet: an inverted index from cells to the readings
+/// that have points there.
 class CellIndex {
  public:
-  /// Readings begin..end-1 have points which `matches` points of the reading asked for can match at
-  /// most.
-  struct Bound {
-    int begin = 0;
-    int end = 0;
-    int matches = 0;
-  };
+  CellIndex() = default;
+  /// `readings[i]`: the cells of reading i, none where there is no reading. `cell_m`: their side.
+  /// `pose_gate_m2`: points of gates g and h match up to a square distance of g + h + pose_gate_m2.
+  CellIndex(std::vector<std::vector<CellCount>> readings, float cell_m, double pose_gate_m2);
 
-  /// `readings[i]`: the cells of reading i, none where there is no reading. `pose_gate_m2`: d^2
-  /// times the largest mean square displacement by the pose at which points still match.
-  CellIndex(std::vector<std::vector<CellCount>> readings, double pose_gate_m2);
-
-  int num_points(int reading) const { return num_points_[static_cast<size_t>(reading)]; }
-  /// Disjoint, by increasing number; readings that cannot match are left out.
-  std::vector<Bound> bounds(int reading) const;
+  /// Adds the points of the reading that can match a point of the others.
+  void add_matches(int reading, BoundSum& sum) const;
 
  private:
-  struct Run {
-    int begin = 0;
-    int end = 0;
-  };
   struct Cell {
     uint64_t key = 0;
-    float gate = 0;           ///< the largest of the points in it
-    std::vector<Run> inside;  ///< readings with points in it
-    std::vector<Run> near;    ///< readings with points that a point in it can match
+    float gate = 0;                  ///< the largest of the points in it
+    std::vector<ReadingRun> inside;  ///< readings with points in it
+    std::vector<ReadingRun> near;    ///< readings with points that a point in it can match
   };
 
   void collect_cells();
@@ -63,7 +52,7 @@ class CellIndex {
                    double pose_gate_m2);
 
   std::vector<std::vector<CellCount>> readings_;
-  std::vector<int> num_points_;
+  float cell_m_ = 1;
   std::vector<Cell> cells_;  ///< by increasing key
 };
 

@@ -12,9 +12,10 @@ void check(const OverlapOptions& options) {
     throw InputError("overlap: max_mahalanobis is " + std::to_string(options.max_mahalanobis) +
                      ", must be positive and finite");
   }
-  if (!(options.max_pose_deviation_m > 0)) {
+  if (!(options.max_pose_deviation_m > 0) || !std::isfinite(options.max_pose_deviation_m)) {
     throw InputError("overlap: max_pose_deviation_m is " +
-                     std::to_string(options.max_pose_deviation_m) + ", must be positive");
+                     std::to_string(options.max_pose_deviation_m) +
+                     ", must be positive and finite");
   }
   if (!(options.min_overlap >= 0 && options.min_overlap < 1)) {
     throw InputError("overlap: min_overlap is " + std::to_string(options.min_overlap) +
@@ -28,9 +29,9 @@ void check_finite(const Pose& pose) {
   }
 }
 
-double sensed_space_overlap(int size_a, int size_b, int matches_a, int matches_b) {
+double sensed_space_overlap(int size_a, int size_b, const Matches& matches) {
   if (size_a == 0 || size_b == 0) return 0;
-  const double common = 0.5 * (matches_a + matches_b);
+  const double common = 0.5 * (matches.of_a + matches.of_b);
   return common / (size_a + size_b - common);
 }
 

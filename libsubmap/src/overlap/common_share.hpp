@@ -11,8 +11,31 @@ void check(const OverlapOptions& options);
 /// Throws InputError where a number of the pose is not finite.
 void check_finite(const Pose& pose);
 
-/// |a intersection b| / |a union b| [Blanco 2009, Eq. 13] of readings of so many points, matches
+/// Elements of a that match one of b and of b that match one of a, for one sensor.
+struct Matches {
+  int of_a = 0;
+  int of_b = 0;
+};
+
+/// |a intersection b| / |a union b| [Blanco 2009, Eq. 13] of readings of so many elements, matches
 /// counted in both directions and averaged; 0 if one is empty.
-double sensed_space_overlap(int size_a, int size_b, int matches_a, int matches_b);
+double sensed_space_overlap(int size_a, int size_b, const Matches& matches);
+
+/// Mean of the overlaps of the sensors that two observations have in common. A sensor that sensed
+/// nothing in either says nothing (0 / 0 in Eq. 13) and does not count.
+class MeanOverlap {
+ public:
+  void add(int size_a, int size_b, const Matches& matches) {
+    if (size_a == 0 && size_b == 0) return;
+    sum_ += sensed_space_overlap(size_a, size_b, matches);
+    ++count_;
+  }
+  /// 0 without any sensor.
+  double mean() const { return count_ > 0 ? sum_ / count_ : 0.0; }
+
+ private:
+  double sum_ = 0;
+  int count_ = 0;
+};
 
 }  // namespace hmt::submap

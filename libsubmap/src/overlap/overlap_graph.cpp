@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <string>
 
-#include "cell_index.hpp"
 #include "common_share.hpp"
 #include "count_matches.hpp"
 #include "hmt/submap/overlap/overlap.hpp"
-#include "keyframe_points.hpp"
+#include "keyframe_space.hpp"
+#include "match_landmarks.hpp"
 #include "packed_covariance.hpp"
+#include "sensor_index.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -35,8 +36,8 @@ struct Block {
 };
 
 /// Upper bounds of the matches of one keyframe, for each sensor.
-using KeyframeBounds = std::vector<std::vector<CellIndex::Bound>>;
-using BlockPoints = std::vector<KeyframePoints>;
+using KeyframeBounds = std::vector<std::vector<MatchBound>>;
+using BlockSpace = std::vector<KeyframeSpace>;
 
 /// Two keyframes that may overlap, a < b.
 struct Pair {
@@ -45,15 +46,9 @@ struct Pair {
   PackedCovariance covariance;  ///< of T_a_b
 };
 
-/// Points of a that match one of b and of b that match one of a, for one sensor.
-struct Matches {
-  int of_a = 0;
-  int of_b = 0;
-};
-
 class OverlapGraphBuilder {
  public:
-  OverlapGraphBuilder(const KeyframePointSource& source, const PairCovariance& covariance,
+  OverlapGraphBuilder(const KeyframeSpaceSource& source, const PairCovariance& covariance,
                       const OverlapOptions& options, const Run& run)
       : source_(source),
         covariance_(covariance),
@@ -63,11 +58,11 @@ class OverlapGraphBuilder {
 
   graph::WeightedGraph build() {
     find_sensors();
-    index_cells();
+    index_sensors();
     std::vector<graph::Arc> arcs;
     const std::vector<Block> all = blocks();
     for (const Block& a : all) {
-      const BlockPoints points_a = prepare(a);
+      const BlockSpace space_a = prepare(a);
       const std::vector<KeyframeBounds> bounds_a = bounds(a);
       for (const Block& b : all) {
         if (b.begin < a.begin || !meet(bounds_a, b)) continue;
@@ -77,7 +72,7 @@ class OverlapGraphBuilder {
           Pair& pair = pairs[at(p)];
           pair.covariance = PackedCovariance(covariance_(pair.a, pair.b));
         });
-        add_arcs(pairs, a, points_a, b, b.begin == a.begin ? points_a : prepare(b), arcs);
+        add_arcs(pairs, a, space_a, b, b.begin == a.begin ? space_a : prepare(b), arcs);
       }
       run_.report({"overlap", static_cast<double>(a.end), static_cast<double>(num_keyframes())});
     }
@@ -92,7 +87,7 @@ class OverlapGraphBuilder {
     int64_t points = 0;
     for (int keyframe = 0; keyframe < num_keyframes(); ++keyframe) {
       int64_t own = 0;
-      for (const CellIndex& index : index_) own += index.num_points(keyframe);
+      for (const SensorIndex& index : index_) own += index.size(keyframe).value_or(0);
       points += own;
       if (blocks.empty() || blocks.back().size() == kBlockKeyframes || points > kBlockPoints) {
         blocks.push_back({keyframe, keyframe});
@@ -111,7 +106,7 @@ class OverlapGraphBuilder {
   }
 
   void find_sensors() {
-    std::vector<std::vector<int>> found(at(num_keyframes()));
+    std::vector<std::vector<Sensor>> found(at(num_keyframes()));
     parallel(num_keyframes(), [&](int i) { found[at(i)] = source_.sensors(i); });
     for (const auto& sensors : found)
       sensors_.insert(sensors_.end(), sensors.begin(), sensors.end());
@@ -119,42 +114,33 @@ class OverlapGraphBuilder {
     sensors_.erase(std::unique(sensors_.begin(), sensors_.end()), sensors_.end());
   }
 
-  void index_cells() {
-    std::vector<std::vector<std::vector<CellCount>>> cells(
-        sensors_.size(), std::vector<std::vector<CellCount>>(at(num_keyframes())));
-    // Not std::vector<bool>, whose elements cannot be written by several threads.
-    has_reading_.assign(sensors_.size(), std::vector<char>(at(num_keyframes()), 0));
+  void index_sensors() {
+    std::vector<std::vector<SensorIndex::Entry>> entries(
+        sensors_.size(), std::vector<SensorIndex::Entry>(at(num_keyframes())));
     parallel(num_keyframes(), [&](int i) {
-      const KeyframePoints points = source_.points(i, sensors_);
+      const KeyframeSpace space = source_.space(i, sensors_);
       for (size_t s = 0; s < sensors_.size(); ++s) {
-        if (!points[s]) continue;
-        has_reading_[s][at(i)] = 1;
-        cells[s][at(i)] = count_cells(*points[s]);
+        entries[s][at(i)] = SensorIndex::entry(space[s], options_);
       }
     });
-    const double pose_gate = options_.max_mahalanobis * options_.max_pose_deviation_m;
-    for (auto& readings : cells) index_.emplace_back(std::move(readings), pose_gate * pose_gate);
+    for (auto& of_sensor : entries) index_.emplace_back(std::move(of_sensor), options_);
   }
 
-  BlockPoints prepare(const Block& block) {
-    BlockPoints points(at(block.size()));
-    parallel(block.size(),
-             [&](int i) { points[at(i)] = source_.points(block.begin + i, sensors_); });
-    return points;
+  BlockSpace prepare(const Block& block) {
+    BlockSpace space(at(block.size()));
+    parallel(block.size(), [&](int i) { space[at(i)] = source_.space(block.begin + i, sensors_); });
+    return space;
   }
 
   /// Mean over the common sensors of the overlap with the matches that matches(s) returns.
   template <typename MatchesOfSensor>
   double mean_overlap(int a, int b, const MatchesOfSensor& matches) const {
-    double sum = 0;
-    int common = 0;
+    MeanOverlap overlap;
     for (size_t s = 0; s < sensors_.size(); ++s) {
-      if (!has_reading_[s][at(a)] || !has_reading_[s][at(b)]) continue;
-      const Matches m = matches(s);
-      sum += sensed_space_overlap(index_[s].num_points(a), index_[s].num_points(b), m.of_a, m.of_b);
-      ++common;
+      const std::optional<int> size_a = index_[s].size(a), size_b = index_[s].size(b);
+      if (size_a && size_b) overlap.add(*size_a, *size_b, matches(s));
     }
-    return common > 0 ? sum / common : 0.0;
+    return overlap.mean();
   }
 
   bool is_arc(double overlap) const { return overlap > 0 && overlap >= options_.min_overlap; }
@@ -163,7 +149,8 @@ class OverlapGraphBuilder {
   std::vector<KeyframeBounds> bounds(const Block& block) {
     std::vector<KeyframeBounds> bounds(at(block.size()));
     parallel(block.size(), [&](int i) {
-      for (const CellIndex& index : index_) bounds[at(i)].push_back(index.bounds(block.begin + i));
+      for (const SensorIndex& index : index_)
+        bounds[at(i)].push_back(index.bounds(block.begin + i));
     });
     return bounds;
   }
@@ -171,7 +158,7 @@ class OverlapGraphBuilder {
   static bool meet(const std::vector<KeyframeBounds>& bounds, const Block& block) {
     for (const KeyframeBounds& keyframe : bounds) {
       for (const auto& sensor : keyframe) {
-        for (const CellIndex::Bound& bound : sensor) {
+        for (const MatchBound& bound : sensor) {
           if (bound.begin < block.end && block.begin < bound.end) return true;
         }
       }
@@ -186,7 +173,7 @@ class OverlapGraphBuilder {
     int* row = table.data();
     for (const KeyframeBounds& keyframe : bounds) {
       for (const auto& sensor : keyframe) {
-        for (const CellIndex::Bound& bound : sensor) {
+        for (const MatchBound& bound : sensor) {
           const int begin = std::max(bound.begin, block.begin),
                     end = std::min(bound.end, block.end);
           if (begin < end)
@@ -216,8 +203,8 @@ class OverlapGraphBuilder {
     return pairs;
   }
 
-  void add_arcs(const std::vector<Pair>& pairs, const Block& a, const BlockPoints& points_a,
-                const Block& b, const BlockPoints& points_b, std::vector<graph::Arc>& arcs) {
+  void add_arcs(const std::vector<Pair>& pairs, const Block& a, const BlockSpace& space_a,
+                const Block& b, const BlockSpace& space_b, std::vector<graph::Arc>& arcs) {
     std::vector<std::vector<size_t>> pairs_of_a(at(a.size())), pairs_of_b(at(b.size()));
     for (size_t p = 0; p < pairs.size(); ++p) {
       pairs_of_a[at(pairs[p].a - a.begin)].push_back(p);
@@ -225,16 +212,16 @@ class OverlapGraphBuilder {
     }
     std::vector<Matches> matches(pairs.size() * sensors_.size());
     parallel(b.size(), [&](int i) {
-      const auto queries = [&](size_t p) -> const KeyframePoints& {
-        return points_a[at(pairs[p].a - a.begin)];
+      const auto queries = [&](size_t p) -> const KeyframeSpace& {
+        return space_a[at(pairs[p].a - a.begin)];
       };
-      count(pairs, pairs_of_b[at(i)], queries, points_b[at(i)], &Matches::of_a, matches);
+      count(pairs, pairs_of_b[at(i)], queries, space_b[at(i)], &Matches::of_a, matches);
     });
     parallel(a.size(), [&](int i) {
-      const auto queries = [&](size_t p) -> const KeyframePoints& {
-        return points_b[at(pairs[p].b - b.begin)];
+      const auto queries = [&](size_t p) -> const KeyframeSpace& {
+        return space_b[at(pairs[p].b - b.begin)];
       };
-      count(pairs, pairs_of_a[at(i)], queries, points_a[at(i)], &Matches::of_b, matches);
+      count(pairs, pairs_of_a[at(i)], queries, space_a[at(i)], &Matches::of_b, matches);
     });
     for (size_t p = 0; p < pairs.size(); ++p) {
       const double overlap = mean_overlap(
@@ -247,35 +234,45 @@ class OverlapGraphBuilder {
   /// once. queries_of(p): the points of the other keyframe of pair p.
   template <typename QueriesOf>
   void count(const std::vector<Pair>& pairs, const std::vector<size_t>& own_pairs,
-             const QueriesOf& queries_of, const KeyframePoints& targets, int Matches::*result,
+             const QueriesOf& queries_of, const KeyframeSpace& targets, int Matches::*result,
              std::vector<Matches>& matches) {
     if (own_pairs.empty()) return;
     std::vector<NearestGrid>& grids = grids_.local();
     grids.resize(sensors_.size());
     for (size_t s = 0; s < sensors_.size(); ++s) {
-      if (targets[s]) grids[s].rebuild(*targets[s]);
+      if (const auto* points = std::get_if<SensedPoints>(&targets[s])) grids[s].rebuild(*points);
     }
     for (const size_t p : own_pairs) {
       if (!pairs[p].covariance.known()) continue;
       const PoseSpread spread(source_.T_frame_keyframe(pairs[p].b), pairs[p].covariance.matrix());
-      const KeyframePoints& queries = queries_of(p);
+      const KeyframeSpace& queries = queries_of(p);
       for (size_t s = 0; s < sensors_.size(); ++s) {
-        if (!targets[s] || !queries[s]) continue;
-        matches[p * sensors_.size() + s].*result =
-            count_matches(*queries[s], *targets[s], spread, options_, &grids[s]);
+        matches[p * sensors_.size() + s].*result = count(queries[s], targets[s], spread, grids[s]);
       }
     }
   }
 
-  const KeyframePointSource& source_;
+  /// Number of elements of the queries that match one of the targets.
+  int count(const SensedReading& queries, const SensedReading& targets, const PoseSpread& spread,
+            const NearestGrid& grid) const {
+    if (queries.index() != targets.index()) return 0;
+    if (const auto* points = std::get_if<SensedPoints>(&queries)) {
+      return count_matches(*points, std::get<SensedPoints>(targets), spread, options_, &grid);
+    }
+    if (const auto* landmarks = std::get_if<SensedLandmarks>(&queries)) {
+      return match_landmarks(*landmarks, std::get<SensedLandmarks>(targets), spread, options_);
+    }
+    return 0;
+  }
+
+  const KeyframeSpaceSource& source_;
   const PairCovariance& covariance_;
   const OverlapOptions& options_;
   const Run& run_;
   tbb::task_arena arena_;
   tbb::enumerable_thread_specific<std::vector<NearestGrid>> grids_;  ///< one a sensor
-  std::vector<int> sensors_;                                         ///< by increasing number
-  std::vector<CellIndex> index_;                                     ///< one a sensor
-  std::vector<std::vector<char>> has_reading_;  ///< for each sensor, whether a keyframe has it
+  std::vector<Sensor> sensors_;                                      ///< sorted
+  std::vector<SensorIndex> index_;                                   ///< one a sensor
 };
 
 }  // namespace
@@ -291,7 +288,7 @@ graph::WeightedGraph overlap_graph(std::span<const Keyframe> keyframes,
                      std::to_string(T_world_keyframe.size()) + " poses");
   }
   for (const Pose& pose : T_world_keyframe) check_finite(pose);
-  const KeyframePointSource source(keyframes, T_world_keyframe, observations, options);
+  const KeyframeSpaceSource source(keyframes, T_world_keyframe, observations, options);
   return OverlapGraphBuilder(source, covariance, options, run).build();
 }
 

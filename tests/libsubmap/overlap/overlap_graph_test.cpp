@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "hmt/submap/overlap/overlap.hpp"
@@ -22,10 +23,12 @@ struct Tour {
   std::vector<Pose> T_world_keyframe;
   std::vector<Observation> observations;
 
-  void add(const Pose& T_world_robot, std::vector<Reading> readings) {
+  void add(const Pose& T_world_robot, std::vector<Reading> readings,
+           std::vector<LandmarkReading> landmark_readings = {}) {
     Observation observation;
     observation.index = static_cast<int64_t>(observations.size());
     observation.readings = std::move(readings);
+    observation.landmark_readings = std::move(landmark_readings);
     keyframes.push_back({static_cast<int>(keyframes.size()), observation.index, 0, T_world_robot});
     T_world_keyframe.push_back(T_world_robot);
     observations.push_back(std::move(observation));
@@ -73,6 +76,39 @@ Tour through_two_rooms() {
   return tour;
 }
 
+enum class Names { all, some, none };
+
+/// What a sensor at the pose sees of trees on both sides of a road: those within 12 m ahead of it.
+LandmarkReading trees_along_a_road(const Pose& T_world_robot, Names names) {
+  LandmarkReading reading;
+  reading.sensor = 1;
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 0.05);
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector3d p_world(3.0 * i + noise(random), i % 2 == 0 ? 4 : -5, 0);
+    const Eigen::Vector3d p = T_world_robot.inverse() * p_world;
+    if (p.x() < 0 || p.norm() > 12) continue;
+    Landmark tree;
+    if (names == Names::all || (names == Names::some && i % 3 != 0)) tree.id = i;
+    tree.position_sensor = p + Eigen::Vector3d(noise(random), noise(random), 0);
+    tree.covariance_sensor.diagonal() << 0.0025, 0.0025, 0;
+    reading.landmarks.push_back(tree);
+  }
+  return reading;
+}
+
+/// Along a road with trees, there and back; without a scanner or with one.
+Tour along_trees(Names names, bool with_scanner) {
+  Tour tour;
+  for (int i = 0; i < 80; ++i) {
+    const Pose T = i < 40 ? Pose::planar(4.0 * i, 0, 0) : Pose::planar(4.0 * (79 - i), 1, 3.1);
+    std::vector<Reading> scans;
+    if (with_scanner) scans = {scan_walls({{{-10, 8}, {190, 8}}}, T)};
+    tour.add(T, std::move(scans), {trees_along_a_road(T, names)});
+  }
+  return tour;
+}
+
 /// Omega by its definition: all pairs.
 void expect_all_pairs(const Tour& tour, const OverlapOptions& options) {
   const WeightedGraph omega = tour.overlap(certain, 2, options);
@@ -113,6 +149,38 @@ TEST(OverlapGraph, EqualsTheOverlapOfAllPairs) {
   expect_all_pairs(along_a_wall(40, 0.3), OverlapOptions{});
   expect_all_pairs(through_two_rooms(), OverlapOptions{});
   expect_all_pairs(through_two_rooms(), OverlapOptions{.min_overlap = 0.3});
+}
+
+TEST(OverlapGraph, EqualsTheOverlapOfAllPairsOfLandmarks) {
+  for (const Names names : {Names::all, Names::some, Names::none}) {
+    expect_all_pairs(along_trees(names, false), OverlapOptions{});
+    expect_all_pairs(along_trees(names, true), OverlapOptions{.min_overlap = 0.1});
+  }
+}
+
+TEST(OverlapGraph, AsksOnlyForPairsThatHaveANameOrAPlaceInCommon) {
+  for (const Names names : {Names::all, Names::none}) {
+    const Tour tour = along_trees(names, false);
+    std::set<std::pair<int, int>> asked;
+    const WeightedGraph omega = tour.overlap([&asked](int a, int b) -> std::optional<Matrix6d> {
+      asked.emplace(a, b);
+      return certain(a, b);
+    });
+    EXPECT_GE(asked.size(), static_cast<size_t>(omega.num_arcs()));
+    // 3160 pairs in all. Trees stand 3 m apart and may be moved by half of that.
+    EXPECT_LT(asked.size(), 1000U);
+  }
+}
+
+TEST(OverlapGraph, FindsTheSameNameFarAway) {
+  // The pose is wrong by far, and known to be: only the name tells.
+  Tour tour;
+  LandmarkReading reading;
+  reading.landmarks = {{5, {1, 0, 0}, Eigen::Matrix3d::Zero(), {}}};
+  tour.add(Pose{}, {}, {reading});
+  tour.add(Pose::planar(500, 0, 0), {}, {reading});
+  const auto vague = [](int, int) { return std::optional(Matrix6d(1e4 * Matrix6d::Identity())); };
+  EXPECT_EQ(tour.overlap(vague).weight(0, 1), 1.0);
 }
 
 TEST(OverlapGraph, IsTheSameOnAnyNumberOfThreads) {

@@ -13,11 +13,13 @@
 namespace hmt::submap {
 
 struct OverlapOptions {
-  /// Largest Mahalanobis distance of corresponding points [Blanco 2009, Sec. 3.1].
+  /// Largest Mahalanobis distance of corresponding points or landmarks [Blanco 2009, Sec. 3.1].
   double max_mahalanobis = 3.0;
   /// A point that the uncertainty of the relative pose alone moves by more than this (root mean
   /// square) matches nothing, > 0: its gate of three deviations would reach from one wall of a
   /// corridor, or one jamb of a door, to the other, so that everything would match everything.
+  /// Landmarks stand apart, so theirs may be moved farther: until the gate reaches half way to the
+  /// next landmark of the reading. One that the log names needs no pose.
   double max_pose_deviation_m = 0.3;
   /// Arcs below this overlap are left out, [0, 1).
   double min_overlap = 0.02;
@@ -30,8 +32,20 @@ struct OverlapOptions {
 double reading_overlap(const Reading& a, const Reading& b, const Pose& T_robota_robotb,
                        const Matrix6d& covariance_a_b, const OverlapOptions& options);
 
+/// Sensed Space Overlap of two readings of landmarks [Blanco 2009, Eq. 13 to 15]: matches are one
+/// to one, the smallest distance first; union = |a| + |b| - matches. The same name is the same
+/// landmark wherever it is seen, two names are never one; where a name is missing the Mahalanobis
+/// distance decides, and descriptors where both have one: they must not be farther apart than half
+/// of what is usual between the landmarks of one reading. In [0, 1]; 0 if one is empty. Throws
+/// InputError where a measurement covariance is none.
+double reading_overlap(const LandmarkReading& a, const LandmarkReading& b,
+                       const Pose& T_robota_robotb, const Matrix6d& covariance_a_b,
+                       const OverlapOptions& options);
+
 /// Mean over the sensors that both observations have of the overlap of their readings
-/// [Blanco 2009, Sec. 6.2].
+/// [Blanco 2009, Sec. 6.2]. A sensor with a reading in only one of them is left out, for sensors
+/// may run at different rates; so is one that sensed nothing in both. One that looked and sensed
+/// nothing in one of them counts with 0. 0 without any common sensor.
 double observation_overlap(const Observation& a, const Observation& b, const Pose& T_robota_robotb,
                            const Matrix6d& covariance_a_b, const OverlapOptions& options);
 
