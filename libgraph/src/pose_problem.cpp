@@ -7,12 +7,11 @@
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/sized_cost_function.h>
-#include <ceres/solver.h>
 
 #include <cmath>
 #include <deque>
 
-#include "openmp_guard.hpp"
+#include "minimizer.hpp"
 
 namespace hmt::graph {
 namespace {
@@ -83,29 +82,6 @@ class SpatialManifold final : public ceres::Manifold {
     return true;
   }
 };
-
-/// Gauss-Newton with next to no damping: pose graphs are solved from a good start, where the full
-/// step is right, and a refused step still finds its way back through the trust region.
-ceres::Solver::Options solver_options(int max_iterations) {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  // Of 1e4 to 1e12, this took the fewest iterations on the standard graphs.
-  options.initial_trust_region_radius = 1e10;
-  options.max_trust_region_radius = 1e16;
-  options.max_num_iterations = max_iterations;
-  options.function_tolerance = 1e-9;
-  options.gradient_tolerance = 1e-10;
-  options.parameter_tolerance = 1e-10;
-  // One thread: with more, Ceres sums the cost in the order in which threads finish.
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  return options;
-}
-
-Termination termination_of(ceres::TerminationType type) {
-  if (type == ceres::CONVERGENCE) return Termination::converged;
-  return type == ceres::NO_CONVERGENCE ? Termination::iteration_limit : Termination::failed;
-}
 
 ceres::Problem::Options problem_options() {
   ceres::Problem::Options options;
@@ -178,16 +154,13 @@ SolveReport PoseProblem<Chart>::solve(const std::vector<double>& edge_weights, d
     if constexpr (Chart::kParameters != Chart::kTangent) problem.SetManifold(pose, &manifold);
     if (held_[node]) problem.SetParameterBlockConstant(pose);
   }
-  const OpenMpGuard guard;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(max_iterations), &problem, &summary);
+  const MinimizerReport minimized = minimize(problem, max_iterations);
   SolveReport report;
-  report.termination = termination_of(summary.termination_type);
-  report.message = summary.message;
-  if (summary.iterations.empty()) return report;
-  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
-  report.gradient_norm = summary.iterations.back().gradient_max_norm;
-  report.cost = 2 * summary.final_cost;
+  report.termination = minimized.termination;
+  report.message = minimized.message;
+  report.iterations = minimized.iterations;
+  report.gradient_norm = minimized.gradient_norm;
+  report.cost = minimized.cost;
   return report;
 }
 

@@ -185,6 +185,21 @@ TEST(PoseOptimizer, BestStartBeatsAWrongGuess) {
   EXPECT_NEAR(report.chi2, chi2, 1e-9 * chi2);
 }
 
+// Every heading off by as much as 1.2 rad, to and fro: a full Gauss-Newton step raises the cost.
+TEST(PoseOptimizer, DampsItsStepsWhereAFullOneGoesTooFar) {
+  PoseGraph graph = noisy_graph(Space::se2, 30, 5, 0.02, 4);
+  const double chi2 = optimize(graph, {}).report.chi2;
+  for (size_t i = 1; i < graph.poses.size(); ++i)
+    graph.poses[i] = graph.poses[i] * Pose::planar(0, 0, i % 2 == 0 ? 1.2 : -1.2);
+  const PoseOptimizerReport report = optimize(graph, {}).report;
+  EXPECT_EQ(report.termination, Termination::converged);
+  EXPECT_GT(report.iterations, 4);
+  EXPECT_NEAR(report.chi2, chi2, 1e-8 * chi2);
+  PoseOptimizerOptions one_step;
+  one_step.max_iterations = 1;
+  EXPECT_EQ(optimize(graph, one_step).report.termination, Termination::iteration_limit);
+}
+
 TEST(PoseOptimizer, GivesTheSameBytesForAnyNumberOfThreads) {
   for (const Space space : {Space::se2, Space::se3}) {
     const PoseGraph graph = noisy_graph(space, 300, 7, 0.02, 1);
