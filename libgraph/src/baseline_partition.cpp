@@ -21,6 +21,13 @@ void check_groups(int num_nodes, int groups) {
                      " nodes make 1 to " + std::to_string(num_nodes) + " groups");
 }
 
+void check_growing(std::span<const double> along) {
+  for (size_t i = 0; i < along.size(); ++i)
+    if (!std::isfinite(along[i]) || (i > 0 && along[i] < along[i - 1]))
+      throw InputError("node " + std::to_string(i) + " lies at " + std::to_string(along[i]) +
+                       " along the sequence; it must be finite and not before the last one");
+}
+
 // The rows of METIS: neighbors and whole-numbered weights, which must be above 0.
 struct MetisGraph {
   std::vector<idx_t> offsets{0};
@@ -54,6 +61,30 @@ Labels consecutive_partition(int num_nodes, int groups) {
   for (int64_t i = 0; i < num_nodes; ++i)
     labels.push_back(static_cast<int>(i * groups / num_nodes));
   return labels;
+}
+
+Labels runs_of_length(std::span<const double> along, double length) {
+  if (!(length > 0))
+    throw InputError("the length of a run is " + std::to_string(length) + "; it must be above 0");
+  check_growing(along);
+  // Only whether two neighbors are in the same run matters; the number of a run may be huge.
+  Labels labels(along.size(), 0);
+  const auto run = [&](size_t i) { return std::floor((along[i] - along[0]) / length); };
+  for (size_t i = 1; i < along.size(); ++i)
+    labels[i] = labels[i - 1] + (run(i) > run(i - 1) ? 1 : 0);
+  return labels;
+}
+
+Labels runs_of_equal_length(std::span<const double> along, int groups) {
+  check_groups(static_cast<int>(along.size()), groups);
+  check_growing(along);
+  const double whole = along.back() - along.front();
+  Labels labels;
+  for (const double at : along) {
+    const double share = whole > 0 ? (at - along.front()) / whole : 0;
+    labels.push_back(std::min(groups - 1, static_cast<int>(share * groups)));
+  }
+  return canonical_labels(labels);
 }
 
 Labels metis_partition(const WeightedGraph& graph, int groups) {

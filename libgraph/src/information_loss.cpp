@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hmt/graph/information_loss.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "hmt/graph/input_error.hpp"
@@ -43,26 +44,35 @@ Blocks information_blocks(const PoseGraph& graph) {
 
 }  // namespace
 
-InformationLoss information_loss(const PoseGraph& graph, std::span<const int> labels) {
-  if (labels.size() != graph.poses.size())
-    throw InputError("information loss: " + std::to_string(labels.size()) + " labels for " +
-                     std::to_string(graph.poses.size()) + " poses");
-  InformationLoss loss;
-  double all = 0;
+InformationBlocks::InformationBlocks(const PoseGraph& graph) : num_nodes_(graph.poses.size()) {
   for (const auto& [nodes, block] : information_blocks(graph)) {
     const auto [i, j] = nodes;
     const double norm = block.norm() * (i == j ? 1 : 2);
-    all += norm;
-    const int a = labels[static_cast<size_t>(i)];
-    const int b = labels[static_cast<size_t>(j)];
-    if (a != b) loss.between[std::minmax(a, b)] += norm;
+    all_ += norm;
+    if (i != j) off_diagonal_.push_back({i, j, norm});
   }
-  if (all <= 0) return {};
+}
+
+InformationLoss InformationBlocks::loss(std::span<const int> labels) const {
+  if (labels.size() != num_nodes_)
+    throw InputError("information loss: " + std::to_string(labels.size()) + " labels for " +
+                     std::to_string(num_nodes_) + " poses");
+  InformationLoss loss;
+  if (all_ <= 0) return loss;
+  for (const Block& block : off_diagonal_) {
+    const int a = labels[static_cast<size_t>(block.i)];
+    const int b = labels[static_cast<size_t>(block.j)];
+    if (a != b) loss.between[std::minmax(a, b)] += block.norm;
+  }
   for (auto& [groups, norm] : loss.between) {
-    norm /= all;
+    norm /= all_;
     loss.total += norm;
   }
   return loss;
+}
+
+InformationLoss information_loss(const PoseGraph& graph, std::span<const int> labels) {
+  return InformationBlocks(graph).loss(labels);
 }
 
 }  // namespace hmt::graph

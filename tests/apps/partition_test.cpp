@@ -84,6 +84,23 @@ TEST_F(PartitionCommand, ComparesMethodsAtTheSameNumberOfGroups) {
   }
 }
 
+TEST_F(PartitionCommand, RefusesOfAMatrixWhatItCannotKnow) {
+  for (const char* option : {"--max-loss 0.01", "--method distance --every 5",
+                             "--method time --groups 2", "--method fixed", "--every 3"}) {
+    const CommandResult result = run_hmtmap("partition " + omega_ + " " + option);
+    EXPECT_EQ(result.code, 1) << option;
+    EXPECT_THAT(result.err, HasSubstr("error: ")) << option;
+  }
+  EXPECT_EQ(run_hmtmap("partition " + omega_ + " --max-loss 0.1 --tau 0.5").code, 2);
+  EXPECT_EQ(run_hmtmap("partition " + omega_ + " --method fixed --every 2 --groups 2").code, 2);
+}
+
+TEST_F(PartitionCommand, CutsEverySoManyNodes) {
+  const CommandResult result =
+      run_hmtmap("partition " + omega_ + " --method fixed --every 4 --json");
+  EXPECT_EQ(result.json().at("sizes"), (std::vector<int>{4, 2}));
+}
+
 TEST_F(PartitionCommand, SaysWhatIsWrongWithTheMatrix) {
   const CommandResult result =
       run_hmtmap("partition " + file("bad.mtx",
@@ -91,6 +108,67 @@ TEST_F(PartitionCommand, SaysWhatIsWrongWithTheMatrix) {
                                      "2 2 1\n2 1 nan\n"));
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.err, HasSubstr("bad.mtx:3: entry (row 2, column 1)"));
+}
+
+/// A map of the simulated rooms, made once.
+class PartitionOfMap : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    ASSERT_EQ(run_hmtmap("simulate rooms -o " + path("log")).code, 0);
+    ASSERT_EQ(run_hmtmap("map " + path("log") + " -o " + path("map.hmt")).code, 0);
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::string path(const std::string& name) { return folder_->path() / name; }
+
+  static nlohmann::json partition(const std::string& options) {
+    const CommandResult result = run_hmtmap("partition " + path("map.hmt") + " --json " + options);
+    EXPECT_EQ(result.code, 0) << options << "\n" << result.err;
+    return result.json();
+  }
+
+  inline static TemporaryFolder* folder_ = nullptr;
+};
+
+TEST_F(PartitionOfMap, LosesMoreInformationTheFurtherItIsCut) {
+  const auto sweep = partition("--sweep-tau --csv " + path("sweep.csv")).at("sweep");
+  for (size_t i = 1; i < sweep.size(); ++i)
+    EXPECT_GE(sweep[i].at("information_loss"), sweep[i - 1].at("information_loss"));
+  EXPECT_GT(sweep.back().at("information_loss"), 0.05);
+  EXPECT_THAT(file_text(path("sweep.csv")),
+              StartsWith("tau,groups,smallest,median,largest,kway_ncut,information_loss\n"));
+}
+
+TEST_F(PartitionOfMap, KeepsBelowTheGreatestLossByTheLargestTau) {
+  const auto within = partition("--max-loss 0.03");
+  EXPECT_LT(within.at("information_loss"), 0.03);
+  const double next = within.at("tau").get<double>() + 0.01;
+  EXPECT_GE(partition("--tau " + std::to_string(next)).at("information_loss"), 0.03);
+}
+
+TEST_F(PartitionOfMap, CutsEverySoManyMetresOrSeconds) {
+  // 63 m of path in 35 s, less what lies before the first and after the last keyframe.
+  const int groups = partition("--method distance --every 10").at("groups");
+  EXPECT_GE(groups, 6);
+  EXPECT_LE(groups, 7);
+  EXPECT_EQ(partition("--method time --groups 4").at("groups"), 4);
+  EXPECT_EQ(partition("--method distance --groups 4").at("groups"), 4);
+}
+
+TEST_F(PartitionOfMap, LosesLessThanOtherMethodsWithAsManyGroups) {
+  const auto methods = partition("--groups 5 --compare").at("methods");
+  ASSERT_EQ(methods.size(), 5u);
+  for (const char* other : {"fixed", "distance", "time", "metis"}) {
+    EXPECT_LT(methods.at("ncut").at("information_loss"), methods.at(other).at("information_loss"))
+        << other;
+    EXPECT_LT(methods.at("ncut").at("kway_ncut"), methods.at(other).at("kway_ncut")) << other;
+  }
+}
+
+TEST_F(PartitionOfMap, TakesALogAsItsMap) {
+  const CommandResult of_log = run_hmtmap("partition " + path("log") + " --json -q");
+  ASSERT_EQ(of_log.code, 0) << of_log.err;
+  EXPECT_EQ(of_log.json().at("sizes"), partition("").at("sizes"));
 }
 
 }  // namespace

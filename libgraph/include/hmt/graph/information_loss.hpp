@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "hmt/graph/partition.hpp"
 #include "hmt/graph/pose_graph.hpp"
@@ -20,10 +21,29 @@ struct InformationLoss {
   std::map<std::pair<int, int>, double> between;
 };
 
-/// Information loss ratio [Blanco 2009, Eq. 22] of the Gauss-Newton information matrix H of the
-/// graph at its poses: e = (sum of |H_ij| with i and j in different groups) / (sum of |H_ij| over
-/// all i and j), |.| the Frobenius norm of the block of two poses. Parallel edges are summed into
-/// their block first. Throws InputError if there is not one label a node.
+/// The Gauss-Newton information matrix H of a pose graph at its poses, as the Frobenius norms
+/// |H_ij| of the blocks of two poses. Parallel edges are summed into their block first.
+class InformationBlocks {
+ public:
+  explicit InformationBlocks(const PoseGraph& graph);
+
+  /// Information loss ratio [Blanco 2009, Eq. 22]: e = (sum of |H_ij| with i and j in different
+  /// groups) / (sum of |H_ij| over all i and j). Linear in the edges. Throws InputError if there is
+  /// not one label a node.
+  InformationLoss loss(std::span<const int> labels) const;
+
+ private:
+  struct Block {
+    int i = 0;
+    int j = 0;        ///< > i
+    double norm = 0;  ///< |H_ij| + |H_ji|
+  };
+  size_t num_nodes_ = 0;
+  std::vector<Block> off_diagonal_;  ///< ordered by (i, j)
+  double all_ = 0;                   ///< sum of |H_ij| over all i and j
+};
+
+/// The same for one partition.
 InformationLoss information_loss(const PoseGraph& graph, std::span<const int> labels);
 
 }  // namespace hmt::graph
