@@ -105,7 +105,8 @@ std::optional<Sides> threshold_cut(const CsrGraph& graph, const std::vector<doub
 std::optional<SpectralCut> spectral_cut(const CsrGraph& graph, const PartitionOptions& options,
                                         std::optional<double> tau) {
   if (graph.size() < 2) return std::nullopt;
-  const FiedlerPairs pairs = fiedler_pairs(graph, kVectors);
+  FiedlerSolver solver(graph);
+  FiedlerPairs pairs = solver.pairs(1);
   // No cut is below lambda_2 [Shi 2000]; the margin covers the accuracy of the eigenvalue.
   if (tau && pairs.lambda[0] - pairs.residual >= *tau) return std::nullopt;
   SpectralCut best{{}, std::numeric_limits<double>::infinity(), pairs.lambda[0], pairs.residual};
@@ -124,6 +125,7 @@ std::optional<SpectralCut> spectral_cut(const CsrGraph& graph, const PartitionOp
       if (!options.refine) break;
     }
     if (!options.refine) break;
+    if (k == 0) pairs = solver.pairs(kVectors);  // most groups need no more than the first
   }
   if (tau || best.sides.empty()) return std::nullopt;
   return best;

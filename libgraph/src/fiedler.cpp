@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fiedler.hpp"
 
+#include <Spectra/SymEigsSolver.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -15,8 +17,11 @@ namespace {
 
 // Up to this size all eigenpairs are computed at once.
 constexpr int kAllPairsSize = 20;
-// Lanczos vectors at most; convergence takes 6 to 15 where lambda_2 is apart from lambda_3.
-constexpr int kMaxVectors = 60;
+// Vectors of a Lanczos run before it is restarted. One run or two is enough where lambda_2 is apart
+// from lambda_3; a cluster of eigenvalues that is not told apart by the last restart is left to the
+// multilevel solver, to which any vector of the cluster is as good.
+constexpr int kVectors = 12;
+constexpr int kMaxRestarts = 20;
 // Ritz residual of the inverse relative to its Ritz value at which the pair counts as converged.
 constexpr double kTolerance = 1e-9;
 
@@ -49,82 +54,29 @@ FiedlerPairs all_pairs(const CsrGraph& graph, int count) {
   return {solver.eigenvalues().head(kept), solver.eigenvectors().leftCols(kept), 0};
 }
 
-// The Lanczos process on (L + shift I)^-1, orthogonal to the null vector, with full
-// reorthogonalization.
-class Lanczos {
+// (L + shift I)^-1 on the vectors that are orthogonal to the null vector, as Spectra asks for it.
+class DeflatedInverse {
  public:
-  Lanczos(const CsrGraph& graph, LaplacianFactor& factor)
-      : factor_(factor), null_(null_vector(graph)) {
-    basis_.resize(graph.size(), 16);
-    Eigen::VectorXd start = start_vector(graph.size());
-    start -= null_ * null_.dot(start);
-    basis_.col(0) = start.normalized();
-  }
+  using Scalar = double;
 
-  // Runs until the largest Ritz pair has converged or the Krylov space is exhausted.
-  FiedlerPairs run(int count) {
-    const int limit = std::min(kMaxVectors, static_cast<int>(basis_.rows()) - 1);
-    for (int steps = 1;; ++steps) {
-      const double beta = step(steps - 1);
-      const bool last = steps == limit || beta < 1e-14 * alpha_.front();
-      if (!last && (steps < 4 || steps % 2 == 1)) {
-        append(beta);
-        continue;
-      }
-      const auto ritz = ritz_pairs(steps);
-      const double error = beta * std::abs(ritz.eigenvectors()(steps - 1, steps - 1));
-      if (last || error <= kTolerance * ritz.eigenvalues()[steps - 1])
-        return pairs(ritz, steps, std::min(count, steps));
-      append(beta);
-    }
+  DeflatedInverse(const CsrGraph& graph, LaplacianFactor& factor)
+      : factor_(factor), null_(null_vector(graph)) {}
+  Eigen::Index rows() const { return null_.size(); }
+  Eigen::Index cols() const { return null_.size(); }
+  void perform_op(const double* in, double* out) const {
+    Eigen::Map<Eigen::VectorXd> x(out, rows());
+    factor_.solve(project(Eigen::Map<const Eigen::VectorXd>(in, rows())), solution_);
+    x = project(solution_);
   }
 
  private:
-  using SmallSolver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
-
-  double step(int j) {
-    factor_.solve(basis_.col(j), next_);
-    alpha_.push_back(basis_.col(j).dot(next_));
-    for (int pass = 0; pass < 2; ++pass) {
-      next_ -= null_ * null_.dot(next_);
-      const Eigen::VectorXd share = basis_.leftCols(j + 1).transpose() * next_;
-      next_.noalias() -= basis_.leftCols(j + 1) * share;
-    }
-    return next_.norm();
-  }
-
-  void append(double beta) {
-    beta_.push_back(beta);
-    const auto used = static_cast<int>(beta_.size());
-    if (used == basis_.cols()) basis_.conservativeResize(Eigen::NoChange, used + 16);
-    basis_.col(used) = next_ / beta;
-  }
-
-  SmallSolver ritz_pairs(int steps) const {
-    SmallSolver solver;
-    solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(alpha_.data(), steps),
-                                  Eigen::Map<const Eigen::VectorXd>(beta_.data(), steps - 1));
-    return solver;
-  }
-
-  FiedlerPairs pairs(const SmallSolver& ritz, int steps, int count) const {
-    FiedlerPairs result;
-    result.lambda.resize(count);
-    result.z.resize(basis_.rows(), count);
-    for (int k = 0; k < count; ++k) {
-      result.lambda[k] = 1 / ritz.eigenvalues()[steps - 1 - k] - kLanczosShift;
-      result.z.col(k) = basis_.leftCols(steps) * ritz.eigenvectors().col(steps - 1 - k);
-      result.z.col(k).normalize();
-    }
-    return result;
+  Eigen::VectorXd project(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    return x - null_ * null_.dot(x);
   }
 
   LaplacianFactor& factor_;
   Eigen::VectorXd null_;
-  Eigen::MatrixXd basis_;
-  Eigen::VectorXd next_;
-  std::vector<double> alpha_;
-  std::vector<double> beta_;
+  mutable Eigen::VectorXd solution_;
 };
 
 // The eigenvector's sign is arbitrary: the entry of largest magnitude is made positive (the first
@@ -148,19 +100,29 @@ Eigen::VectorXd start_vector(int n) {
 }
 
 FiedlerPairs lanczos_pairs(const CsrGraph& graph, LaplacianFactor& factor, int count) {
-  return Lanczos(graph, factor).run(count);
+  DeflatedInverse inverse(graph, factor);
+  const int vectors = std::min(kVectors, graph.size());
+  Spectra::SymEigsSolver<DeflatedInverse> solver(inverse, std::min(count, vectors - 1), vectors);
+  const Eigen::VectorXd start = start_vector(graph.size());
+  solver.init(start.data());
+  solver.compute(Spectra::SortRule::LargestAlge, kMaxRestarts, kTolerance);
+  const Eigen::ArrayXd inverses = solver.eigenvalues();
+  return {inverses.inverse() - kLanczosShift, solver.eigenvectors(), 0};
 }
 
-FiedlerPairs fiedler_pairs(const CsrGraph& graph, int count) {
+FiedlerSolver::FiedlerSolver(const CsrGraph& graph) : graph_(graph) {
+  if (graph.size() > kAllPairsSize) factor_ = factorize_laplacian(graph, kLanczosShift);
+}
+
+FiedlerPairs FiedlerSolver::pairs(int count) {
   FiedlerPairs result;
-  if (graph.size() <= kAllPairsSize)
-    result = all_pairs(graph, count);
-  else if (const auto factor = factorize_laplacian(graph, kLanczosShift))
-    result = lanczos_pairs(graph, *factor, count);
-  else
-    result = multilevel_fiedler(graph);
+  if (graph_.size() <= kAllPairsSize)
+    result = all_pairs(graph_, count);
+  else if (factor_)
+    result = lanczos_pairs(graph_, *factor_, count);
+  if (result.lambda.size() == 0) result = multilevel_fiedler(graph_);
   fix_signs(result.z);
-  set_residual(graph, result);
+  set_residual(graph_, result);
   return result;
 }
 

@@ -70,10 +70,14 @@ class Multigrid {
     const size_t coarsest = levels_.size() - 1;
     const CsrGraph& graph = *levels_[coarsest].graph;
     factor_ = factorize_laplacian(graph, kLanczosShift);
-    VectorXd x =
-        factor_ ? VectorXd(lanczos_pairs(graph, *factor_, 1).z.col(0)) : start_vector(graph.size());
+    VectorXd x = start_vector(graph.size());
+    FiedlerPairs pairs;
+    if (factor_) pairs = lanczos_pairs(graph, *factor_, 1);
     // A group that cannot be coarsened, such as a star, has to do without preconditioner.
-    if (!factor_) improve(coarsest, x);
+    if (pairs.z.cols() > 0)
+      x = pairs.z.col(0);
+    else
+      improve(coarsest, x);
     for (size_t l = coarsest; l-- > 0;) {
       x = prolongate(l, x);
       improve(l, x);

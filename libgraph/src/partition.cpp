@@ -16,6 +16,7 @@
 #include "best_first.hpp"
 #include "bisection.hpp"
 #include "hmt/graph/input_error.hpp"
+#include "piece_peeling.hpp"
 
 namespace hmt::graph {
 namespace {
@@ -34,9 +35,16 @@ void check_options(const WeightedGraph& graph, const PartitionOptions& options, 
                      " to " + std::to_string(graph.num_nodes()));
 }
 
+// A bisection loses a crumb if one side has less than a thirty-second of the nodes. A group that
+// has come out of so many of them in a row loses its crumbs in one pass from then on (peel_pieces),
+// or the recursion would be as deep as a star has leaves.
+constexpr int kCrumb = 32;
+constexpr int kCrumbsInARow = 8;
+
 // One group of the recursion tree. A group that was cut has parts and no graph.
 struct Group {
   CsrGraph graph;
+  int crumbs = 0;  // lost in a row by the bisections that led to this group
   std::vector<Group*> parts;
   std::vector<Bisection> bisections;
 };
@@ -92,15 +100,20 @@ class Recursion {
   }
 
  private:
-  Group* add(CsrGraph graph) {
+  Group* add(CsrGraph graph, int crumbs = 0) {
     const std::lock_guard lock(mutex_);
-    groups_.push_back({std::move(graph), {}, {}});
+    groups_.push_back({std::move(graph), crumbs, {}, {}});
     return &groups_.back();
   }
 
   void replace(Group& group, std::vector<CsrGraph> parts) {
+    const int size = group.graph.size();
     group.graph = {};
-    for (CsrGraph& part : parts) group.parts.push_back(add(std::move(part)));
+    for (CsrGraph& part : parts) {
+      const bool lost_a_crumb = kCrumb * (size - part.size()) < size;
+      const int crumbs = lost_a_crumb ? group.crumbs + 1 : 0;
+      group.parts.push_back(add(std::move(part), crumbs));
+    }
   }
 
   void cut(Group& group) {
@@ -113,11 +126,26 @@ class Recursion {
     }
     if (group.graph.size() >= std::max(2, options_.min_size)) {
       if (const auto cut = spectral_cut(group.graph, options_, options_.tau)) {
-        group.bisections = {report(*cut)};
-        return replace(group, split(group.graph, {cut->sides.begin(), cut->sides.end()}, 2));
+        return group.crumbs < kCrumbsInARow ? cut_in_two(group, *cut) : peel(group, *cut);
       }
     }
     keep_nodes_only(group.graph);
+  }
+
+  void cut_in_two(Group& group, const SpectralCut& cut) {
+    group.bisections = {report(cut)};
+    replace(group, split(group.graph, {cut.sides.begin(), cut.sides.end()}, 2));
+  }
+
+  void peel(Group& group, const SpectralCut& cut) {
+    const Bisection first = report(cut);
+    if (kCrumb * std::min(first.size_a, first.size_b) >= group.graph.size())
+      return cut_in_two(group, cut);
+    Peeling peeling = peel_pieces(group.graph, cut, options_.tau);
+    auto parts = split(group.graph, peeling.part, peeling.parts);
+    group.bisections = std::move(peeling.bisections);
+    replace(group, std::move(parts));
+    group.parts.front()->crumbs = group.crumbs;  // though half of the group may be gone
   }
 
   static void keep_nodes_only(CsrGraph& graph) {

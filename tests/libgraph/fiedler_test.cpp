@@ -37,7 +37,8 @@ CsrGraph grid(int width, int height) {
 // The normalized Laplacian of a path of n nodes has the eigenvalues 1 - cos(pi k / (n - 1)).
 TEST(Fiedler, MatchesTheClosedFormOnPathsOfEverySolver) {
   for (const int nodes : {2, 3, 12, 100, 1000, 20000}) {
-    const FiedlerPairs pairs = fiedler_pairs(path(nodes), 3);
+    const CsrGraph graph = path(nodes);
+    const FiedlerPairs pairs = FiedlerSolver(graph).pairs(3);
     const double expected = 1 - std::cos(std::numbers::pi / (nodes - 1));
     EXPECT_NEAR(pairs.lambda[0], expected, 1e-6 * expected) << nodes;
     EXPECT_LT(pairs.residual, 1e-9) << nodes;
@@ -49,12 +50,44 @@ TEST(Fiedler, MatchesTheClosedFormOnACompleteGraph) {
   std::vector<Arc> arcs;
   for (int a = 0; a < 60; ++a)
     for (int b = 0; b < a; ++b) arcs.push_back({a, b, 2});
-  EXPECT_NEAR(fiedler_pairs(whole_graph({60, arcs}), 1).lambda[0], 60.0 / 59, 1e-9);
+  const CsrGraph graph = whole_graph({60, arcs});
+  EXPECT_NEAR(FiedlerSolver(graph).pairs(1).lambda[0], 60.0 / 59, 1e-9);
+}
+
+// L of a star has the eigenvalues 0, 1 (n - 2 times) and 2: the Krylov space is one vector.
+TEST(Fiedler, GivesOrthogonalVectorsOfAMultipleEigenvalue) {
+  std::vector<Arc> arcs;
+  for (int leaf = 1; leaf < 400; ++leaf) arcs.push_back({0, leaf, 1});
+  const CsrGraph star = whole_graph({400, arcs});
+  const FiedlerPairs pairs = FiedlerSolver(star).pairs(3);
+  ASSERT_EQ(pairs.z.cols(), 3);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(pairs.lambda[k], 1, 1e-9);
+  EXPECT_LT((pairs.z.transpose() * pairs.z - Eigen::Matrix3d::Identity()).norm(), 1e-8);
+  EXPECT_LT(pairs.z.row(0).norm(), 1e-8);  // the hub
+}
+
+// 150 blobs that hang on one hub by weights that differ by a millionth: as many eigenvalues are
+// next to each other. Whichever vector of theirs comes out has a Rayleigh quotient among them.
+TEST(Fiedler, EndsWhereManyEigenvaluesAreNextToEachOther) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(0, 1e-6);
+  std::vector<Arc> arcs;
+  for (int blob = 0; blob < 150; ++blob) {
+    const int first = 1 + blob * 4;
+    arcs.push_back({0, first, 0.01 + 0.01 * noise(random)});
+    for (int a = 0; a < 4; ++a)
+      for (int b = 0; b < a; ++b) arcs.push_back({first + a, first + b, 1});
+  }
+  const CsrGraph graph = whole_graph({601, arcs});
+  const FiedlerPairs pairs = FiedlerSolver(graph).pairs(1);
+  // A blob alone: cut 0.01, assoc 12.01.
+  EXPECT_NEAR(pairs.lambda[0], 0.01 / 12.01, 1e-5);
+  EXPECT_LT(pairs.residual, 1e-8);
 }
 
 TEST(MultilevelFiedler, AgreesWithTheFactorOnAGrid) {
   const CsrGraph graph = grid(130, 70);
-  const FiedlerPairs exact = fiedler_pairs(graph, 1);
+  const FiedlerPairs exact = FiedlerSolver(graph).pairs(1);
   const FiedlerPairs multilevel = multilevel_fiedler(graph);
   EXPECT_GT(std::abs(exact.z.col(0).dot(multilevel.z.col(0))), 1 - 1e-4);
 }

@@ -44,28 +44,68 @@ graph::Labels connected_pieces(const graph::Labels& groups,
   return graph::canonical_labels(pieces);
 }
 
-/// The group that shares most constraints with group `piece`; the piece itself if there is none.
-int best_neighbor(const graph::Labels& labels, std::span<const Constraint> constraints, int piece) {
-  std::map<int, int> shared;
-  for (const Constraint& c : constraints) {
-    const int a = labels[static_cast<size_t>(c.a)];
-    const int b = labels[static_cast<size_t>(c.b)];
-    if (a == piece && b != piece) ++shared[b];
-    if (b == piece && a != piece) ++shared[a];
+/// The pieces of a partition, with those too small to stand alone joined to others, in the time of
+/// one walk over the constraints.
+class Pieces {
+ public:
+  Pieces(const graph::Labels& labels, std::span<const Constraint> constraints)
+      : count_(labels.empty() ? 0 : at(*std::max_element(labels.begin(), labels.end())) + 1),
+        joined_to_(count_),
+        keyframes_(count_, 0),
+        tied_to_(count_) {
+    std::iota(joined_to_.begin(), joined_to_.end(), 0);
+    for (const int label : labels) ++keyframes_[at(label)];
+    for (const Constraint& c : constraints) {
+      const int a = labels[at(c.a)];
+      const int b = labels[at(c.b)];
+      if (a == b) continue;
+      tied_to_[at(a)].push_back(b);
+      tied_to_[at(b)].push_back(a);
+    }
   }
-  const auto best =
-      std::max_element(shared.begin(), shared.end(),
-                       [](const auto& l, const auto& r) { return l.second < r.second; });
-  return best == shared.end() ? piece : best->first;
-}
+
+  void join_small() {
+    for (size_t piece = 0; piece < count_; ++piece) {
+      if (keyframes_[piece] >= kMinPiece) continue;
+      const int target = best_neighbor(static_cast<int>(piece));
+      joined_to_[piece] = target;
+      if (target == static_cast<int>(piece)) continue;
+      keyframes_[at(target)] += keyframes_[piece];
+      auto& ties = tied_to_[at(target)];
+      ties.insert(ties.end(), tied_to_[piece].begin(), tied_to_[piece].end());
+    }
+  }
+
+  /// The piece that `piece` is part of by now.
+  int current(int piece) const {
+    while (joined_to_[at(piece)] != piece) piece = joined_to_[at(piece)];
+    return piece;
+  }
+
+ private:
+  static size_t at(int i) { return static_cast<size_t>(i); }
+
+  /// The piece that shares most constraints with `piece`; itself if there is none.
+  int best_neighbor(int piece) const {
+    std::map<int, int> shared;
+    for (const int tied : tied_to_[at(piece)])
+      if (const int other = current(tied); other != piece) ++shared[other];
+    const auto best =
+        std::max_element(shared.begin(), shared.end(),
+                         [](const auto& l, const auto& r) { return l.second < r.second; });
+    return best == shared.end() ? piece : best->first;
+  }
+
+  size_t count_;
+  std::vector<int> joined_to_;
+  std::vector<int> keyframes_;
+  std::vector<std::vector<int>> tied_to_;  ///< for each constraint, the piece at its other end
+};
 
 graph::Labels without_small_pieces(graph::Labels labels, std::span<const Constraint> constraints) {
-  const int groups = labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end()) + 1;
-  for (int piece = 0; piece < groups; ++piece) {
-    if (std::count(labels.begin(), labels.end(), piece) >= kMinPiece) continue;
-    const int target = best_neighbor(labels, constraints, piece);
-    std::replace(labels.begin(), labels.end(), piece, target);
-  }
+  Pieces pieces(labels, constraints);
+  pieces.join_small();
+  for (int& label : labels) label = pieces.current(label);
   return graph::canonical_labels(labels);
 }
 

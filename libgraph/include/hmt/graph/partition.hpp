@@ -35,8 +35,9 @@ struct Bisection {
   int size_a = 0;
   int size_b = 0;
   double ncut = 0;  ///< Eq. 1, in [0, 2]
-  double lambda_2 =
-      0;  ///< second smallest eigenvalue of Eq. 10: a lower bound of ncut; 0 for components
+  /// Second smallest eigenvalue of Eq. 10, a lower bound of ncut; 0 for components and for pieces
+  /// that left a group in one pass with others of their kind.
+  double lambda_2 = 0;
   double residual = 0;  ///< |L z - lambda z| of the normalized Laplacian
 };
 
