@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Time of the overlap graph of all scans of fr079 and its growth with the log, beside the exact
-// overlap of all pairs of a subset in the same run. Usage: overlap_benchmark [THREADS]
+// overlap of all pairs of a subset in the same run. Usage: overlap_benchmark [THREADS [SCANS]]: the
+// first SCANS alone
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -113,6 +115,10 @@ int main(int argc, char** argv) {
   const int threads = argc > 1 ? std::atoi(argv[1]) : 2;
   const Scans scans = read_fr079(std::filesystem::path(HMTMAP_DATA_DIR) / "laser2d");
   const int all = static_cast<int>(scans.keyframes.size());
+  if (argc > 2) {
+    time_overlap_graph(scans, std::clamp(std::atoi(argv[2]), 1, all), threads);
+    return 0;
+  }
   for (const int count : {500, 1000, 2000}) time_overlap_graph(scans, count, threads);
   compare_with_all_pairs(scans, time_overlap_graph(scans, all, threads), 40);
 }

@@ -8,16 +8,45 @@
 namespace hmt::submap {
 namespace {
 
-/// One query against many targets. Gates are d^2 * variance, so all comparisons are of metres^2.
+/// What all queries of one pair of readings have in common. Gates are d^2 * variance, so all
+/// comparisons are of metres^2.
+struct PairGate {
+  const PoseSpread& spread;
+  double square_distance = 0;       ///< d^2
+  double max_square_deviation = 0;  ///< of a displacement by the pose, metres^2
+  float square_distance_f = 0, max_square_deviation_f = 0;  ///< the same in float
+  float plane_floor = 0;   ///< the spread adds so much to a gate everywhere, in x and y
+  float height_floor = 0;  ///< and along z
+  float smaller_floors = 0;
+
+  PairGate(const PoseSpread& pose_spread, const OverlapOptions& options)
+      : spread(pose_spread),
+        square_distance(options.max_mahalanobis * options.max_mahalanobis),
+        max_square_deviation(options.max_pose_deviation_m * options.max_pose_deviation_m),
+        square_distance_f(static_cast<float>(square_distance)),
+        max_square_deviation_f(static_cast<float>(max_square_deviation)),
+        plane_floor(static_cast<float>(square_distance * spread.floor().plane)),
+        height_floor(static_cast<float>(square_distance * spread.floor().height)),
+        smaller_floors(static_cast<float>(square_distance * spread.floor().smaller_two())) {}
+
+  /// The most that a spread of so large a trace adds to a gate in any direction.
+  float reach(float trace) const { return square_distance_f * trace - smaller_floors; }
+  /// True for a difference that is within the gate by the least that the spread adds. `gate`: of
+  /// both points.
+  bool surely_matches(const Eigen::Vector3f& epsilon, float gate) const {
+    const float plane = gate + plane_floor, height = gate + height_floor;
+    const float square_plane = epsilon.x() * epsilon.x() + epsilon.y() * epsilon.y();
+    return square_plane * height + epsilon.z() * epsilon.z() * plane <= plane * height;
+  }
+};
+
+/// One query against many targets.
 class Query {
  public:
-  Query(const SensedPoint& point, const PoseSpread& spread, const OverlapOptions& options)
-      : point_(point),
-        spread_(spread),
-        square_distance_(options.max_mahalanobis * options.max_mahalanobis) {
-    const double trace = spread.trace(point.position.cast<double>());
-    usable_ = trace <= options.max_pose_deviation_m * options.max_pose_deviation_m;
-    reach_ = point.gate + static_cast<float>(square_distance_ * trace);
+  Query(const SensedPoint& point, const PairGate& pair) : point_(point), pair_(pair) {
+    const double trace = pair.spread.trace(point.position.cast<double>());
+    usable_ = trace <= pair.max_square_deviation;
+    reach_ = point.gate + pair.reach(static_cast<float>(trace));
   }
 
   /// False where the pose is too uncertain to tell.
@@ -32,12 +61,12 @@ class Query {
 
   bool matches(const SensedPoint& target) {
     const Eigen::Vector3f epsilon = target.position - point_.position;
-    const float square = epsilon.squaredNorm();
-    // All eigenvalues of S lie between the points' own variance and that plus the spread's trace.
-    if (square <= point_.gate + target.gate) return true;
-    if (square > reach_ + target.gate) return false;
+    // The reach bounds the largest eigenvalue of S.
+    if (epsilon.squaredNorm() > reach_ + target.gate) return false;
+    if (pair_.surely_matches(epsilon, point_.gate + target.gate)) return true;
     if (!spread_is_known_) {
-      spread_gate_ = square_distance_ * spread_.covariance(point_.position.cast<double>());
+      spread_gate_ =
+          pair_.square_distance * pair_.spread.covariance(point_.position.cast<double>());
       spread_is_known_ = true;
     }
     Eigen::Matrix3d S = spread_gate_;
@@ -48,8 +77,7 @@ class Query {
 
  private:
   const SensedPoint& point_;
-  const PoseSpread& spread_;
-  double square_distance_ = 0;
+  const PairGate& pair_;
   bool usable_ = false;
   float reach_ = 0;
   bool spread_is_known_ = false;
@@ -57,21 +85,23 @@ class Query {
 };
 
 bool tree_has_match(Query& query, const SensedPoints& targets) {
-  // A binary tree over at most 2^31 points is less than 32 deep; one sibling waits on each level.
+  // Halved by number the tree is less than 32 deep, below that less than 32 more: one sibling waits
+  // on each level.
   std::array<int, 64> waiting;
   size_t top = 0;
   waiting[top++] = 0;
-  const int num_nodes = static_cast<int>(targets.nodes().size());
   while (top > 0) {
     const int node = waiting[--top];
     const SensedPoints::Node& n = targets.nodes()[static_cast<size_t>(node)];
     if (!query.can_match(n.box, n.gate)) continue;
-    for (const SensedPoint& target : targets.node_points(node)) {
+    if (n.second != 0) {
+      waiting[top++] = n.second;
+      waiting[top++] = node + 1;
+      continue;
+    }
+    for (const SensedPoint& target : targets.points(n.begin, n.end)) {
       if (query.matches(target)) return true;
     }
-    if (2 * node + 2 >= num_nodes) continue;
-    waiting[top++] = 2 * node + 2;
-    waiting[top++] = 2 * node + 1;
   }
   return false;
 }
@@ -82,10 +112,10 @@ const SensedPoint& target_at(const SensedPoints& targets, int index) {
 
 bool has_match(Query& query, const SensedPoints& targets, const NearestGrid* grid) {
   if (!query.usable()) return false;
-  if (grid != nullptr && query.reach() <= grid->max_reach()) {
-    const NearestGrid::Cell& cell = grid->at(query.position());
-    if (cell.bound > query.reach()) return false;
-    if (query.matches(target_at(targets, cell.nearest))) return true;
+  if (grid != nullptr) {
+    if (grid->bound({query.position(), query.position()}) > query.reach()) return false;
+    const int nearest = grid->nearest(query.position());
+    if (nearest >= 0 && query.matches(target_at(targets, nearest))) return true;
   }
   return tree_has_match(query, targets);
 }
@@ -93,21 +123,28 @@ bool has_match(Query& query, const SensedPoints& targets, const NearestGrid* gri
 enum class Verdict { all_match, none_matches, open };
 
 /// Decides for the queries of a leaf at once where one target is within all their gates or none is
-/// within any.
-Verdict judge(const SensedPoints::Leaf& leaf, const SensedPoints& targets, const PoseSpread& spread,
-              const OverlapOptions& options, const NearestGrid& grid) {
-  if (leaf.radius_m > grid.margin_m()) return Verdict::open;
-  const double deviation =
-      spread.max_deviation(leaf.center.cast<double>(), static_cast<double>(leaf.radius_m));
-  if (deviation > options.max_pose_deviation_m) return Verdict::open;
-  const double pose_gate = options.max_mahalanobis * deviation;
-  const float reach = leaf.max_gate + static_cast<float>(pose_gate * pose_gate);
-  if (reach > grid.max_reach()) return Verdict::open;
-  const NearestGrid::Cell& cell = grid.at(leaf.center);
-  if (cell.bound > reach) return Verdict::none_matches;
-  const SensedPoint& target = target_at(targets, cell.nearest);
-  const Eigen::Vector3f farthest = (leaf.center - target.position).cwiseAbs() + leaf.half;
-  return farthest.squaredNorm() <= leaf.min_gate + target.gate ? Verdict::all_match : Verdict::open;
+/// within any. `max_pose_gate`: d^2 times the mean square displacement of any usable query.
+Verdict judge(const SensedPoints::Leaf& leaf, const SensedPoints& targets, const PairGate& pair,
+              float max_pose_gate, const NearestGrid& grid) {
+  const float bound = grid.bound(leaf.box);
+  if (bound > leaf.max_gate + max_pose_gate) return Verdict::none_matches;
+  const Eigen::Vector3f center = leaf.box.center();
+  const float square_deviation = pair.spread.max_trace(center, leaf.radius_m);
+  if (bound > leaf.max_gate + pair.reach(square_deviation)) return Verdict::none_matches;
+  if (square_deviation > pair.max_square_deviation_f) return Verdict::open;
+  const int nearest = grid.nearest(center);
+  if (nearest < 0) return Verdict::open;
+  const SensedPoint& target = target_at(targets, nearest);
+  const Eigen::Vector3f farthest =
+      (target.position - leaf.box.min()).cwiseMax(leaf.box.max() - target.position);
+  return pair.surely_matches(farthest, leaf.min_gate + target.gate) ? Verdict::all_match
+                                                                    : Verdict::open;
+}
+
+float max_pose_gate(const SensedPoints& queries, const PairGate& pair) {
+  const Eigen::AlignedBox3f& box = queries.nodes().front().box;
+  const float square_deviation = pair.spread.max_trace(box.center(), box.sizes().norm() / 2);
+  return pair.reach(std::min(pair.max_square_deviation_f, square_deviation));
 }
 
 }  // namespace
@@ -115,17 +152,21 @@ Verdict judge(const SensedPoints::Leaf& leaf, const SensedPoints& targets, const
 int count_matches(const SensedPoints& queries, const SensedPoints& targets,
                   const PoseSpread& spread, const OverlapOptions& options,
                   const NearestGrid* grid) {
-  if (targets.size() == 0) return 0;
+  if (targets.size() == 0 || queries.size() == 0) return 0;
+  const PairGate pair(spread, options);
+  const float widest = max_pose_gate(queries, pair);
   int count = 0;
-  for (int i = 0; i < static_cast<int>(queries.leaves().size()); ++i) {
-    const SensedPoints::Leaf& leaf = queries.leaves()[static_cast<size_t>(i)];
-    const Verdict verdict =
-        grid != nullptr ? judge(leaf, targets, spread, options, *grid) : Verdict::open;
-    if (verdict == Verdict::all_match) count += leaf.size;
-    if (verdict != Verdict::open) continue;
-    for (const SensedPoint& point : queries.leaf_points(i)) {
-      Query query(point, spread, options);
-      if (has_match(query, targets, grid)) ++count;
+  for (const SensedPoints::Group& group : queries.groups()) {
+    if (grid != nullptr && grid->coarse_bound(group.box) > group.gate + widest) continue;
+    for (const SensedPoints::Leaf& leaf : queries.leaves(group)) {
+      const Verdict verdict =
+          grid != nullptr ? judge(leaf, targets, pair, widest, *grid) : Verdict::open;
+      if (verdict == Verdict::all_match) count += leaf.end - leaf.begin;
+      if (verdict != Verdict::open) continue;
+      for (const SensedPoint& point : queries.points(leaf.begin, leaf.end)) {
+        Query query(point, pair);
+        if (has_match(query, targets, grid)) ++count;
+      }
     }
   }
   return count;

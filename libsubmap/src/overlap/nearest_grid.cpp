@@ -9,12 +9,11 @@
 namespace hmt::submap {
 namespace {
 
-constexpr float kNever = std::numeric_limits<float>::max();
 // Beyond it cells are made larger instead; some 10 MB a thread.
 constexpr double kMaxCells = 1 << 20;
 
 // What the grid allows for the uncertainty of the pose.
-constexpr float kPoseGate_m = 0.3F;
+constexpr float kPoseGate_m = 0.5F;
 
 /// The gate that the given share of the points do not exceed.
 float gate_quantile(const SensedPoints& points, double share) {
@@ -29,76 +28,113 @@ float gate_quantile(const SensedPoints& points, double share) {
 }  // namespace
 
 void NearestGrid::choose_cells(const SensedPoints& targets) {
-  // A cell as wide as twice the gate of two middling points. Queries that reach farther than most
-  // are left to the tree: they would need every target to be entered in many cells.
-  const float wide_gate = gate_quantile(targets, 0.9);
-  cell_m_ = 2 * std::sqrt(2 * gate_quantile(targets, 0.5));
+  // A cell as wide as the gate of two middling points. Queries that reach farther than most are
+  // left to the tree: they would need every target to be entered in many cells.
+  const float wide_gate = gate_quantile(targets, 0.98);
   max_reach_ = 2 * wide_gate + kPoseGate_m * kPoseGate_m;
-  margin_m_ = std::sqrt(wide_gate);
   const Eigen::AlignedBox3f& box = targets.nodes().front().box;
   const float border = std::sqrt(max_reach_ + targets.nodes().front().gate);
-  for (bool fits = false; !fits; cell_m_ *= fits ? 1.0F : 1.5F) {
-    origin_ = box.min().array() - border - margin_m_;
-    const Eigen::Vector3f width = box.max() - origin_;
-    double count = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float cells = std::floor((width[axis] + border + margin_m_) / cell_m_) + 1;
-      count *= static_cast<double>(cells);
-      limit_[axis] = cells;
-    }
-    fits = count <= kMaxCells;
+  origin_ = box.min().array() - border;
+  const Eigen::Array3f width = box.sizes().array() + 2 * border;
+  float side = 1.0F * std::sqrt(2 * gate_quantile(targets, 0.5));
+  do {
+    // Where the targets are flat, as scans are along z, one cell is as good as many.
+    const auto flat = box.sizes().array() < side;
+    limit_ = flat.select(1, (width / side).floor() + 1).matrix();
+    cell_m_ = flat.select(width * 1.001F, side).matrix();
+    side *= 1.5F;
+  } while (limit_.cast<double>().prod() > kMaxCells);
+  cells_per_m_ = cell_m_.cwiseInverse();
+  for (size_t axis = 0; axis < 3; ++axis) {
+    size_[axis] = static_cast<int>(limit_[static_cast<Eigen::Index>(axis)]);
   }
-  cells_per_m_ = 1 / cell_m_;
-  for (int axis = 0; axis < 3; ++axis)
-    size_[static_cast<size_t>(axis)] = static_cast<int>(limit_[axis]);
 }
 
 void NearestGrid::rebuild(const SensedPoints& targets) {
-  outside_ = {kNever, -1};
   limit_.setZero();
+  max_reach_ = level_m2_ = 0;
   if (targets.size() == 0) return;
   choose_cells(targets);
   const size_t count = index(0, 0, size_[2]);
-  cells_.assign(count, {kNever, -1});
-  center_distance_.assign(count, kNever);
-  int target = 0;
-  for (const SensedPoint& p : targets.points()) insert(target++, p);
+  exact_bound_.assign(count, max_reach_);
+  center_distance_.assign(count, std::numeric_limits<float>::max());
+  nearest_.assign(count, -1);
+  column_center_.resize(static_cast<size_t>(size_[0]));
+  column_gap_.resize(static_cast<size_t>(size_[0]));
+  for (const SensedPoints::Leaf& leaf : targets.leaves()) {
+    const int middle = (leaf.begin + leaf.end) / 2;
+    insert(leaf, middle, targets.points()[static_cast<size_t>(middle)]);
+  }
+  round_bounds();
 }
 
-void NearestGrid::insert(int target, const SensedPoint& point) {
-  const float reach = std::sqrt(point.gate + max_reach_);
-  const Eigen::Vector3f place = point.position - origin_;
-  std::array<int, 3> first, last;
+void NearestGrid::round_bounds() {
   for (size_t axis = 0; axis < 3; ++axis) {
-    const float x = place[static_cast<Eigen::Index>(axis)];
-    first[axis] = std::max(0, static_cast<int>((x - reach - margin_m_) * cells_per_m_));
-    last[axis] =
-        std::min(size_[axis] - 1, static_cast<int>((x + reach + margin_m_) * cells_per_m_));
+    coarse_size_[axis] = (size_[axis] + kCoarse - 1) / kCoarse;
   }
-  const auto center_offset = [this](int cell, float x) {
-    return std::abs((static_cast<float>(cell) + 0.5F) * cell_m_ - x);
-  };
-  // Least distance to the cell widened by the margin, along one axis.
-  const auto gap = [this](float offset) {
-    return std::max(0.0F, offset - cell_m_ / 2 - margin_m_);
-  };
-  for (int z = first[2]; z <= last[2]; ++z) {
-    const float oz = center_offset(z, place.z()), gz = gap(oz);
-    for (int y = first[1]; y <= last[1]; ++y) {
-      const float oy = center_offset(y, place.y()), gy = gap(oy);
-      const float row_center = oz * oz + oy * oy - point.gate;
-      const float row_gap = gz * gz + gy * gy - point.gate;
-      const size_t row = index(0, y, z);
-      for (int x = first[0]; x <= last[0]; ++x) {
-        const size_t at = row + static_cast<size_t>(x);
-        const float ox = center_offset(x, place.x()), gx = gap(ox);
-        cells_[at].bound = std::min(cells_[at].bound, row_gap + gx * gx);
-        if (row_center + ox * ox < center_distance_[at]) {
-          center_distance_[at] = row_center + ox * ox;
-          cells_[at].nearest = target;
-        }
+  coarse_bound_.assign(index(0, 0, coarse_size_[2], coarse_size_), kLevels);
+  bound_.resize(exact_bound_.size());
+  level_m2_ = max_reach_ / kLevels;
+  const float levels_per_m2 = kLevels / max_reach_;
+  size_t cell = 0;
+  for (int z = 0; z < size_[2]; ++z) {
+    for (int y = 0; y < size_[1]; ++y) {
+      uint8_t* const coarse =
+          coarse_bound_.data() + index(0, y / kCoarse, z / kCoarse, coarse_size_);
+      for (int x = 0; x < size_[0]; ++x, ++cell) {
+        // Below zero, inside a gate, everything can match.
+        bound_[cell] = static_cast<uint8_t>(std::max(0.0F, exact_bound_[cell] * levels_per_m2));
+        coarse[x / kCoarse] = std::min(coarse[x / kCoarse], bound_[cell]);
       }
     }
+  }
+}
+
+void NearestGrid::insert(const SensedPoints::Leaf& leaf, int target, const SensedPoint& point) {
+  const float reach = std::sqrt(leaf.max_gate + max_reach_);
+  const Eigen::Vector3f low = leaf.box.min() - origin_, high = leaf.box.max() - origin_;
+  const Eigen::Vector3f place = point.position - origin_;
+  std::array<int, 3> first, last;
+  for (size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    first[a] = std::max(0, static_cast<int>((low[axis] - reach) * cells_per_m_[axis]));
+    last[a] = std::min(size_[a] - 1, static_cast<int>((high[axis] + reach) * cells_per_m_[axis]));
+  }
+  // Distance along one axis of the cell's centre from the target, ...
+  const auto from_center = [&](int cell, Eigen::Index axis) {
+    return (static_cast<float>(cell) + 0.5F) * cell_m_[axis] - place[axis];
+  };
+  // ... and of the cell from the box of the leaf.
+  const auto gap = [&](int cell, Eigen::Index axis) {
+    const float begin = static_cast<float>(cell) * cell_m_[axis];
+    return std::max({0.0F, begin - high[axis], low[axis] - begin - cell_m_[axis]});
+  };
+  const auto square = [](float v) { return v * v; };
+  const auto columns = static_cast<size_t>(last[0] - first[0] + 1);
+  for (size_t x = 0; x < columns; ++x) {
+    column_center_[x] = square(from_center(first[0] + static_cast<int>(x), 0));
+    column_gap_[x] = square(gap(first[0] + static_cast<int>(x), 0));
+  }
+  for (int z = first[2]; z <= last[2]; ++z) {
+    for (int y = first[1]; y <= last[1]; ++y) {
+      fill_row(index(first[0], y, z), columns, target,
+               square(from_center(y, 1)) + square(from_center(z, 2)) - point.gate,
+               square(gap(y, 1)) + square(gap(z, 2)) - leaf.max_gate);
+    }
+  }
+}
+
+void NearestGrid::fill_row(size_t at, size_t columns, int target, float center, float gap) {
+  float* const bound = exact_bound_.data() + at;
+  float* const distance = center_distance_.data() + at;
+  int* const nearest = nearest_.data() + at;
+  const float* const column_center = column_center_.data();
+  const float* const column_gap = column_gap_.data();
+  for (size_t x = 0; x < columns; ++x) {
+    bound[x] = std::min(bound[x], gap + column_gap[x]);
+    const float own = center + column_center[x];
+    nearest[x] = own < distance[x] ? target : nearest[x];
+    distance[x] = std::min(distance[x], own);
   }
 }
 

@@ -3,7 +3,7 @@
 #include "sensed_points.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 
 namespace hmt::submap {
 namespace {
@@ -17,6 +17,29 @@ constexpr double kPointSigma_m = 0.02;
 double point_variance(double range_m, double beam_step_rad) {
   const double sigma_f = range_m * beam_step_rad;
   return kPointSigma_m * kPointSigma_m + sigma_f * sigma_f;
+}
+
+// A leaf has at most so many points, ...
+constexpr int kLeafSize = 12;
+// ... no farther from its middle than this share of the root of their least gate.
+constexpr float kLeafRadius = 0.8F;
+// The leaves of so many points at most make a group: a few decimetres of a wall.
+constexpr int kGroupSize = 24;
+// Nodes of more points are halved by number, so that the tree stays flat; smaller ones in the
+// middle of their box, so that no leaf reaches across a gap.
+constexpr int kHalvedByNumber = 32;
+
+SensedPoints::Leaf leaf_of(const SensedPoints::Node& node, std::span<const SensedPoint> points) {
+  SensedPoints::Leaf leaf{node.box, node.box.sizes().norm() / 2, node.gate, node.gate, node.begin,
+                          node.end};
+  for (const SensedPoint& p : points) leaf.min_gate = std::min(leaf.min_gate, p.gate);
+  return leaf;
+}
+
+bool is_small(const SensedPoints::Leaf& leaf) {
+  const int size = leaf.end - leaf.begin;
+  return leaf.radius_m == 0 ||
+         (size <= kLeafSize && leaf.radius_m <= kLeafRadius * std::sqrt(leaf.min_gate));
 }
 
 }  // namespace
@@ -34,65 +57,49 @@ SensedPoints::SensedPoints(const Reading& reading, const Pose& T_frame_robot,
                        static_cast<float>(max_mahalanobis * max_mahalanobis * variance)});
   }
   if (points_.empty()) return;
-  const int used_leaves = (size() + kLeafSize - 1) / kLeafSize;
-  const int leaves = static_cast<int>(std::bit_ceil(static_cast<unsigned>(used_leaves)));
-  sort_into_leaves(0, leaves);
-  make_nodes(leaves);
-  make_leaves(used_leaves);
+  make_nodes(0, size(), false);
 }
 
-void SensedPoints::make_nodes(int leaves) {
-  first_leaf_ = leaves - 1;
-  nodes_.resize(static_cast<size_t>(2 * leaves - 1));
-  for (int node = 2 * leaves - 2; node >= 0; --node) {
-    Node& n = nodes_[static_cast<size_t>(node)];
-    for (const SensedPoint& p : node_points(node)) {
-      n.box.extend(p.position);
-      n.gate = std::max(n.gate, p.gate);
-    }
-    if (node >= first_leaf_) continue;
-    for (const int child : {2 * node + 1, 2 * node + 2}) {
-      n.box.extend(nodes_[static_cast<size_t>(child)].box);
-      n.gate = std::max(n.gate, nodes_[static_cast<size_t>(child)].gate);
-    }
+void SensedPoints::make_nodes(int begin, int end, bool is_grouped) {
+  Node node{{}, 0, begin, end, 0};
+  for (const SensedPoint& p : points(begin, end)) {
+    node.box.extend(p.position);
+    node.gate = std::max(node.gate, p.gate);
   }
-}
-
-void SensedPoints::make_leaves(int leaves) {
-  leaves_.reserve(static_cast<size_t>(leaves));
-  for (int i = 0; i < leaves; ++i) {
-    const Node& node = nodes_[static_cast<size_t>(first_leaf_ + i)];
-    Leaf leaf{node.box.center(), node.box.sizes() / 2, 0, node.gate, node.gate, 0};
-    leaf.radius_m = leaf.half.norm();
-    for (const SensedPoint& p : leaf_points(i)) leaf.min_gate = std::min(leaf.min_gate, p.gate);
-    leaf.size = static_cast<int>(leaf_points(i).size());
+  const size_t at = nodes_.size();
+  nodes_.push_back(node);
+  const Leaf leaf = leaf_of(node, points(begin, end));
+  const bool is_group = !is_grouped && (is_small(leaf) || end - begin <= kGroupSize);
+  if (is_group) groups_.push_back({node.box, node.gate, static_cast<int>(leaves_.size()), 0});
+  if (is_small(leaf)) {
     leaves_.push_back(leaf);
+  } else {
+    const int middle = split(node);
+    make_nodes(begin, middle, is_grouped || is_group);
+    nodes_[at].second = static_cast<int>(nodes_.size());
+    make_nodes(middle, end, is_grouped || is_group);
   }
+  if (is_group) groups_.back().end_leaf = static_cast<int>(leaves_.size());
 }
 
-std::span<const SensedPoint> SensedPoints::leaf_points(int leaf) const {
-  const auto begin = std::min(points_.size(), static_cast<size_t>(leaf) * kLeafSize);
-  return std::span(points_).subspan(begin, std::min<size_t>(kLeafSize, points_.size() - begin));
-}
-
-void SensedPoints::sort_into_leaves(int begin_leaf, int end_leaf) {
-  if (end_leaf - begin_leaf < 2) return;
-  const int middle_leaf = (begin_leaf + end_leaf) / 2;
-  const auto at = [this](int leaf) {
-    return points_.begin() + std::min<std::ptrdiff_t>(size(), std::ptrdiff_t{leaf} * kLeafSize);
-  };
-  const auto begin = at(begin_leaf), middle = at(middle_leaf), end = at(end_leaf);
-  Eigen::AlignedBox3f box;
-  std::for_each(begin, end, [&box](const SensedPoint& p) { box.extend(p.position); });
+int SensedPoints::split(const Node& node) {
+  const auto begin = points_.begin() + node.begin, end = points_.begin() + node.end;
   Eigen::Index axis = 0;
-  if (begin != end) box.sizes().maxCoeff(&axis);
-  if (middle != end) {
+  node.box.sizes().maxCoeff(&axis);
+  if (node.end - node.begin > kHalvedByNumber) {
+    const auto middle = begin + (end - begin) / 2;
     std::nth_element(begin, middle, end, [axis](const SensedPoint& a, const SensedPoint& b) {
       return a.position[axis] < b.position[axis];
     });
+    return static_cast<int>(middle - points_.begin());
   }
-  sort_into_leaves(begin_leaf, middle_leaf);
-  sort_into_leaves(middle_leaf, end_leaf);
+  // Both sides have a point: that of the box's maximum is above, that of its minimum is not, unless
+  // rounding puts the middle on the maximum.
+  const float middle =
+      std::min(node.box.center()[axis], std::nextafter(node.box.max()[axis], node.box.min()[axis]));
+  const auto above = std::partition(
+      begin, end, [axis, middle](const SensedPoint& p) { return p.position[axis] <= middle; });
+  return static_cast<int>(above - points_.begin());
 }
 
 }  // namespace hmt::submap

@@ -19,27 +19,36 @@ struct SensedPoint {
   float gate = 0;
 };
 
-/// The points of a reading, prepared for matching: in the common frame, with their gates, in a
-/// balanced tree of boxes.
+/// The points of a reading, prepared for matching: in the common frame, with their gates, in a tree
+/// of boxes.
 class SensedPoints {
  public:
-  /// A box of points with the largest of their gates; children of node i are 2i + 1 and 2i + 2.
+  /// A box of points with the largest of their gates. The first child follows its parent.
   struct Node {
     Eigen::AlignedBox3f box;
     float gate = 0;
+    int begin = 0;  ///< its points
+    int end = 0;
+    int second = 0;  ///< the second child; 0 for a leaf
   };
-  /// The points of one leaf: leaf g holds the points from g * kLeafSize on.
+  /// The points of a leaf node: neighbours on a surface, so close together against their gates that
+  /// they often match one and the same point.
   struct Leaf {
-    Eigen::Vector3f center;
-    Eigen::Vector3f half;  ///< half the sides of the box of the points
-    float radius_m = 0;    ///< half its diagonal
+    Eigen::AlignedBox3f box;
+    float radius_m = 0;  ///< half its diagonal
     float min_gate = 0;
     float max_gate = 0;
-    int size = 0;
+    int begin = 0;
+    int end = 0;
   };
-  /// Neighbouring points of a surface, so close together against their gates that they often match
-  /// one and the same point.
-  static constexpr int kLeafSize = 4;
+
+  /// Leaves that lie together: those from begin_leaf to end_leaf - 1.
+  struct Group {
+    Eigen::AlignedBox3f box;
+    float gate = 0;  ///< the largest of theirs
+    int begin_leaf = 0;
+    int end_leaf = 0;
+  };
 
   SensedPoints() = default;
   /// Points that are not finite are left out.
@@ -47,25 +56,27 @@ class SensedPoints {
 
   int size() const { return static_cast<int>(points_.size()); }
   std::span<const SensedPoint> points() const { return points_; }
-  /// Empty where there are no points.
+  std::span<const SensedPoint> points(int begin, int end) const {
+    return points().subspan(static_cast<size_t>(begin), static_cast<size_t>(end - begin));
+  }
+  /// Empty where there are no points; the first is the root.
   std::span<const Node> nodes() const { return nodes_; }
   std::span<const Leaf> leaves() const { return leaves_; }
-  /// The points of leaf g.
-  std::span<const SensedPoint> leaf_points(int leaf) const;
-  /// The points of a leaf node; nothing for an inner node.
-  std::span<const SensedPoint> node_points(int node) const {
-    return node < first_leaf_ ? std::span<const SensedPoint>{} : leaf_points(node - first_leaf_);
+  /// All leaves, in their order.
+  std::span<const Group> groups() const { return groups_; }
+  std::span<const Leaf> leaves(const Group& group) const {
+    return leaves().subspan(static_cast<size_t>(group.begin_leaf),
+                            static_cast<size_t>(group.end_leaf - group.begin_leaf));
   }
 
  private:
-  void sort_into_leaves(int begin_leaf, int end_leaf);
-  void make_nodes(int leaves);
-  void make_leaves(int leaves);
+  void make_nodes(int begin, int end, bool is_grouped);
+  int split(const Node& node);
 
   std::vector<SensedPoint> points_;
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
-  int first_leaf_ = 0;  ///< index of the first leaf node
+  std::vector<Group> groups_;
 };
 
 }  // namespace hmt::submap
