@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "hmt/graph/input_error.hpp"
+#include "log_options.hpp"
 #include "log_text.hpp"
 
 namespace hmt::apps {
@@ -36,9 +37,10 @@ Verdict judge(const std::string& path, const submap::LogSummary& summary) {
   return result;
 }
 
-Verdict check_log(const std::string& path, const submap::Run& run) {
+Verdict check_log(const std::string& path, const submap::LogOptions& options,
+                  const submap::Run& run) {
   try {
-    const auto log = submap::open_log(path);
+    const auto log = submap::open_log(path, options);
     return judge(path, submap::summarize_log(*log, run));
   } catch (const graph::InputError& error) {
     return {kFailed,
@@ -54,13 +56,18 @@ ExitCode worse(ExitCode a, ExitCode b) {
   return kDone;
 }
 
-int check(const std::vector<std::string>& paths, const Globals& globals) {
+struct CheckArguments {
+  std::vector<std::string> logs;
+  submap::LogOptions options;
+};
+
+int check(const CheckArguments& arguments, const Globals& globals) {
   const submap::Run run = make_run(globals);
   nlohmann::ordered_json json = {{"logs", nlohmann::ordered_json::array()}};
   std::string text;
   ExitCode code = kDone;
-  for (const std::string& path : paths) {
-    const Verdict verdict = check_log(path, run);
+  for (const std::string& path : arguments.logs) {
+    const Verdict verdict = check_log(path, arguments.options, run);
     code = worse(code, verdict.code);
     json["logs"].push_back(verdict.json);
     text += verdict.text;
@@ -72,10 +79,12 @@ int check(const std::vector<std::string>& paths, const Globals& globals) {
 }  // namespace
 
 Action add_check(CLI::App& command) {
-  const auto paths = std::make_shared<std::vector<std::string>>();  // by the parser and the action
-  command.add_option("LOG", *paths, "Logs to examine")->required();
+  const auto arguments = std::make_shared<CheckArguments>();  // shared by the parser and the action
+  command.add_option("LOG", arguments->logs, std::string("Logs to examine: ") + kLogFormats)
+      ->required();
+  add_log_options(command, arguments->options);
   command.footer("Exit code 0: fine; 3: usable, but records had to be left out; 1: unusable.");
-  return [paths](const Globals& globals) { return check(*paths, globals); };
+  return [arguments](const Globals& globals) { return check(*arguments, globals); };
 }
 
 }  // namespace hmt::apps

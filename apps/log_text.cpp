@@ -76,4 +76,30 @@ std::string log_text(const submap::LogSummary& summary) {
   return text;
 }
 
+nlohmann::ordered_json topics_json(const std::vector<submap::TopicSummary>& topics) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& topic : topics)
+    json.push_back({{"name", topic.name},
+                    {"type", topic.type},
+                    {"messages", topic.messages},
+                    {"rate_hz", topic.rate_hz},
+                    {"first_s", topic.first_s},
+                    {"last_s", topic.last_s},
+                    {"frames", topic.frames}});
+  return json;
+}
+
+std::string topics_text(const std::vector<submap::TopicSummary>& topics) {
+  std::string text;
+  for (const auto& topic : topics) {
+    text += fmt::format("  {}  {}: {} messages", topic.name, topic.type, topic.messages);
+    if (topic.messages > 0)
+      text += fmt::format(", {:.6f} to {:.6f} s, {:.4g} Hz", topic.first_s, topic.last_s,
+                          topic.rate_hz);
+    if (!topic.frames.empty()) text += fmt::format(", frames {}", fmt::join(topic.frames, ", "));
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace hmt::apps

@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "hmt/submap/pipeline.hpp"
+#include "log_options.hpp"
 
 namespace hmt::apps {
 namespace {
@@ -82,11 +83,11 @@ Action add_map(CLI::App& command) {
   auto arguments = std::make_shared<MapArguments>();  // shared by CLI11's options and the action
   submap::Options& options = arguments->options;
   arguments->keyframe_angle_deg = options.track.keyframe_angle_rad * 180 / std::numbers::pi;
-  command.add_option("LOG", arguments->log, "Log to map (CARMEN; plain, gz, bz2 or zst)")
-      ->required();
+  command.add_option("LOG", arguments->log, std::string("Log to map: ") + kLogFormats)->required();
   command.add_option("-o,--output", arguments->map, "Map file to make, or to go on with")
       ->required();
   command.add_flag("--force", arguments->force, "Begin anew even if the map file exists");
+  add_log_options(command, options.log);
   command
       .add_option("--tau", options.partition.tau,
                   "Bisect while Ncut < tau; larger gives more, smaller submaps")

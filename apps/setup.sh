@@ -9,8 +9,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages=(
   g++ cmake ninja-build
   libboost-iostreams-dev libbz2-dev libceres-dev libcli11-dev libeigen3-dev libgmock-dev libgtest-dev
-  libmetis-dev liboctomap-dev libspdlog-dev libspectra-dev libsqlite3-dev libsuitesparse-dev
-  libtbb-dev libzstd-dev nlohmann-json3-dev zlib1g-dev)
+  liblz4-dev liblzf-dev libmetis-dev liboctomap-dev libspdlog-dev libspectra-dev libsqlite3-dev
+  libsuitesparse-dev libtbb-dev libzstd-dev nlohmann-json3-dev zlib1g-dev)
 # What the further checks of .ci/run need.
 check_packages=(clang clang-format clang-tidy libclang-rt-14-dev)
 

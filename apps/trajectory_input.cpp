@@ -11,10 +11,12 @@
 namespace hmt::apps {
 bool is_map_file(const std::filesystem::path& path) {
   constexpr std::string_view kMagic = "SQLite format 3";
-  std::string head(kMagic.size(), '\0');
+  // [SQLite file format, 1.3]; ROS 2 bags are SQLite databases, too, and leave it zero.
+  constexpr size_t kApplicationId = 68;
+  std::string head(kApplicationId + 4, '\0');
   std::ifstream(path, std::ios::binary)
       .read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head == kMagic;
+  return head.starts_with(kMagic) && head.substr(kApplicationId) != std::string(4, '\0');
 }
 
 std::vector<submap::StampedPose> load_trajectory(const std::filesystem::path& path) {

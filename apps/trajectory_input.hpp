@@ -9,7 +9,8 @@
 
 namespace hmt::apps {
 
-/// True for an SQLite database, whatever is in it; false where there is no such file.
+/// True for an SQLite database that tells which program made it, so not for a ROS 2 bag; false
+/// where there is no such file.
 bool is_map_file(const std::filesystem::path& path);
 
 /// T_world_robot of every observation of a map, or the poses of a TUM file; told apart by content.

@@ -51,7 +51,7 @@ std::vector<Pose> track_poses(const Track& track) {
 
 void read_and_track(MapFile& file, const std::string& stage, const std::filesystem::path& log,
                     const Options& options, const Run& run) {
-  const auto reader = open_log(log);
+  const auto reader = open_log(log, options.log);
   StageWriter writer = file.begin(stage);
   const Track track = track_log(
       *reader, options.track, [&writer](const Observation& o) { writer.add(o); }, run);
@@ -341,6 +341,10 @@ void build_octrees(MapFile& file, const Options& options, const Run& run) {
 
 std::string to_json(const Options& options) {
   const nlohmann::ordered_json json = {
+      {"log",
+       {{"scan_topics", options.log.scan_topics},
+        {"odometry_topic", options.log.odometry_topic},
+        {"odometry_file", options.log.odometry_file}}},
       {"track",
        {{"keyframe_distance_m", options.track.keyframe_distance_m},
         {"keyframe_angle_rad", options.track.keyframe_angle_rad}}},
@@ -359,6 +363,8 @@ BuildResult build_map(const std::filesystem::path& log, const std::filesystem::p
   MapOrigin origin;
   origin.log_path = log.string();
   origin.log_digest = log_digest(log);
+  if (!options.log.odometry_file.empty())
+    origin.log_digest += log_digest(options.log.odometry_file);
   origin.options_json = to_json(options);
   origin.program_version = HMTMAP_VERSION;
   BuildResult result{MapFile::open_for_run(map, origin, existing), {}};

@@ -19,6 +19,8 @@ namespace {
 
 namespace io = boost::iostreams;
 
+constexpr size_t kHeadBytes = 4096;
+
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw graph::InputError(path.string() + ": " + reason);
 }
@@ -85,8 +87,8 @@ class CompressedSource : public ByteSource {
 
   size_t read(char* out, size_t size) override {
     if (!damage_.empty()) return 0;
-    // A filter that throws does not say how much it had decoded. A text log holds no zero byte, so
-    // the zeros that are left tell it, and what stands before the damage is not lost.
+    // A filter that throws does not say how much it had decoded. Bytes up to the first zero were
+    // decoded for sure; a text log holds none, so of it nothing before the damage is lost.
     std::memset(out, 0, size);
     try {
       const std::streamsize count =
@@ -162,6 +164,12 @@ std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path) {
     return std::make_unique<CompressedSource<io::bzip2_decompressor>>(std::move(file));
   if (head == "\x28\xb5\x2f\xfd") return std::make_unique<ZstdSource>(std::move(file));
   return std::make_unique<PlainSource>(std::move(file));
+}
+
+std::string first_bytes(const std::filesystem::path& path) {
+  std::string head(kHeadBytes, '\0');
+  head.resize(open_bytes(path)->read(head.data(), head.size()));
+  return head;
 }
 
 }  // namespace hmt::submap

@@ -243,8 +243,4 @@ void CarmenReader::lose(const std::string& what, const std::string& place) {
   report_.first_places.try_emplace(what, place);
 }
 
-std::unique_ptr<LogReader> open_log(const std::filesystem::path& path) {
-  return std::make_unique<CarmenReader>(path);
-}
-
 }  // namespace hmt::submap

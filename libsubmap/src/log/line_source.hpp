@@ -29,6 +29,9 @@ class ByteSource {
 /// a missing or unreadable file, a folder and an empty file.
 std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path);
 
+/// The first decoded bytes of a file, up to some kilobytes. Throws as open_bytes does.
+std::string first_bytes(const std::filesystem::path& path);
+
 /// The lines of a file, one after the other, in bounded memory.
 class LineSource {
  public:

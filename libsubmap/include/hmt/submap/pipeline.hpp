@@ -17,6 +17,7 @@ namespace hmt::submap {
 
 /// Options of the whole run, one struct a stage.
 struct Options {
+  LogOptions log;
   TrackOptions track;
   OverlapOptions overlap;
   LocalConstraintOptions local;

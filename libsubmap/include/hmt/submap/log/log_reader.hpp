@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hmt/submap/observation/observation.hpp"
 
@@ -43,8 +44,26 @@ class LogReader {
   virtual Space space() const = 0;
 };
 
-/// Opens a log by its content: CARMEN text, plain or compressed (gz, bz2, zst). Throws InputError
-/// for a missing, unreadable, empty or unknown file and for a folder.
-std::unique_ptr<LogReader> open_log(const std::filesystem::path& path);
+/// What of a log is wanted, where it holds more than one thing. Recordings of ROS have topics,
+/// other logs have none.
+struct LogOptions {
+  /// Topics of the range sensors, sensor 0 first; empty: the only one.
+  std::vector<std::string> scan_topics;
+  /// Topic of the odometry, nav_msgs/Odometry or /tf; empty: the only one.
+  std::string odometry_topic;
+  /// File with the poses of a folder of clouds.
+  std::string odometry_file;
+
+  bool operator==(const LogOptions&) const = default;
+};
+
+/// Opens a log by its content:
+///   CARMEN text, plain or compressed (gz, bz2, zst);
+///   ROS 1 bags, MCAP files, ROS 2 sqlite3 bags, or a folder of these;
+///   a folder of clouds (PCD, PLY or KITTI's bin) with LogOptions::odometry_file.
+/// Throws InputError for a missing, unreadable, empty or unknown file, and for topics that are not
+/// there or not obvious.
+std::unique_ptr<LogReader> open_log(const std::filesystem::path& path,
+                                    const LogOptions& options = {});
 
 }  // namespace hmt::submap

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "log_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace hmt::apps {
+
+void add_log_options(CLI::App& command, submap::LogOptions& options) {
+  command
+      .add_option("--scan-topic", options.scan_topics,
+                  "Of bags: topic of the scans or clouds, if there are several; may be given once "
+                  "for each sensor")
+      ->type_name("TOPIC")
+      ->take_all();
+  command
+      .add_option("--odom-topic", options.odometry_topic,
+                  "Of bags: topic of the odometry, if there are several; /tf takes the transform "
+                  "below the frame odom")
+      ->type_name("TOPIC");
+  command
+      .add_option(
+          "--odometry", options.odometry_file,
+          "Of a folder of clouds: their poses by odometry, TUM or KITTI, line N for cloud N")
+      ->type_name("FILE");
+}
+
+}  // namespace hmt::apps

@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recording_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../cloud/complete_cloud.hpp"
+#include "../file_bytes.hpp"
+#include "../range_scan.hpp"
+#include "../report_book.hpp"
+
+namespace hmt::submap {
+namespace {
+
+constexpr size_t kScansAhead = 200;
+/// Clouds are large, and nothing is learnt from them ahead.
+constexpr size_t kCloudsAhead = 2;
+/// Scans of two sensors so close in time are one observation.
+constexpr double kSameObservation = 0.2;  // seconds
+/// Odometry is recorded later than the scan by less.
+constexpr uint64_t kMaxWait_ns = 2'000'000'000;
+constexpr size_t kMaxWaiting = 400;
+/// Where a scan does not tell its greatest range; no planar laser reaches further than the second.
+constexpr double kDefaultMaxRange = 80;     // metres
+constexpr double kGreatestMaxRange = 1000;  // metres
+/// The plane of a laser may be tilted by so much before it is no plan of the walls.
+const double kMostTilted = std::cos(10 * std::numbers::pi / 180);
+constexpr int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+double seconds(int64_t stamp_ns) {
+  const int64_t whole = stamp_ns / kNanosecondsPerSecond;
+  return static_cast<double>(whole) +
+         static_cast<double>(stamp_ns - whole * kNanosecondsPerSecond) * 1e-9;
+}
+
+Pose in_plane(const Pose& T) {
+  return Pose::planar(T.translation.x(), T.translation.y(), T.yaw_rad());
+}
+
+}  // namespace
+
+RecordingReader::RecordingReader(const std::filesystem::path& path, const LogOptions& options)
+    : path_(path),
+      plan_(plan_recording(path, options)),
+      recording_(open_recording(path)),
+      bytes_total_(file_bytes(path)) {
+  if (plan_.uses_time_of_receipt)
+    note("scans and odometry have different clocks: their times of receipt are taken",
+         path.string());
+  const size_t wanted = plan_.space == Space::se2 ? kScansAhead : kCloudsAhead;
+  while (ahead_.size() < wanted && read_message()) {
+  }
+  if (!ahead_.empty()) return;
+  std::string reason = path.string() + ": no usable scan";
+  if (!report_.losses.empty()) {
+    const std::string& what = report_.losses.begin()->first;
+    reason += "; " + report_.first_places.at(what) + ": " + what;
+  }
+  throw InputError(reason);
+}
+
+std::optional<Observation> RecordingReader::next() {
+  while (ahead_.size() < 2 && read_message()) {
+  }
+  if (ahead_.empty()) return std::nullopt;
+  const Scan scan = std::move(ahead_.front());
+  ahead_.pop_front();
+  note_stamp(scan);
+
+  Observation observation;
+  observation.index = report_.observations++;
+  observation.stamp_s = scan.own_stamp_s;
+  observation.T_odom_robot = scan.T_odom_robot;
+  observation.readings.push_back(reading(scan, observation.T_odom_robot));
+  const auto belongs = [&](const Scan& other) {
+    return other.sensor != scan.sensor &&
+           std::abs(other.own_stamp_s - scan.own_stamp_s) <= kSameObservation;
+  };
+  while (!ahead_.empty() && belongs(ahead_.front()) &&
+         observation.readings.size() < plan_.scan_topics.size()) {
+    observation.readings.push_back(reading(ahead_.front(), observation.T_odom_robot));
+    ahead_.pop_front();
+  }
+  return observation;
+}
+
+bool RecordingReader::read_message() {
+  const auto message = recording_->next();
+  // Its counts only grow, and are no reader's own.
+  for (const auto& [what, times] : recording_->report().notes) report_.notes[what] = times;
+  for (const auto& [what, times] : recording_->report().losses) report_.losses[what] = times;
+  report_.first_places.insert(recording_->report().first_places.begin(),
+                              recording_->report().first_places.end());
+  at_end_ = !message;
+  if (message) {
+    ++messages_;
+    last_received_ns_ = message->received_ns;
+    use_message(*message);
+  }
+  return place_scans() || !at_end_;
+}
+
+void RecordingReader::use_message(const RecordedMessage& message) {
+  const RecordedTopic& topic = recording_->topics()[message.topic];
+  const MessageKind kind = topic.kind();
+  try {
+    if (is_range_data(kind)) {
+      const auto sensor = std::ranges::find(plan_.scan_topics, topic.name);
+      if (sensor != plan_.scan_topics.end())
+        add_scan(message, static_cast<size_t>(sensor - plan_.scan_topics.begin()), topic);
+    } else if (kind == MessageKind::odometry && topic.name == plan_.odometry_topic) {
+      const OdometryMessage odometry = read_odometry({message.data, *topic.wire});
+      add_odometry(odometry.header, message.received_ns, odometry.T_odom_robot);
+    } else if (kind == MessageKind::transforms) {
+      add_transforms(message, topic);
+    }
+  } catch (const MessageError& error) {
+    lose("damaged messages on " + topic.name + ": " + error.what(), place(topic));
+  }
+}
+
+void RecordingReader::add_scan(const RecordedMessage& message, size_t sensor,
+                               const RecordedTopic& topic) {
+  Scan scan;
+  scan.sensor = sensor;
+  scan.received_ns = message.received_ns;
+  scan.place = place(topic);
+  const WireReader in(message.data, *topic.wire);
+  scan.is_laser = topic.kind() != MessageKind::cloud;
+  if (scan.is_laser)
+    scan.laser = read_laser_scan(in, topic.kind());
+  else
+    scan.cloud = read_cloud(in);
+  const MessageHeader& header = scan.is_laser ? scan.laser.header : scan.cloud.header;
+  scan.stamp_ns = clock_ns(header, message.received_ns);
+  scan.own_stamp_s = seconds(header.stamp_ns != 0 ? header.stamp_ns : message.received_ns);
+  if (header.stamp_ns == 0) note("stamps of 0: the time of receipt is taken", scan.place);
+  if (mount(header, scan)) waiting_.push_back(std::move(scan));
+}
+
+int64_t RecordingReader::clock_ns(const MessageHeader& header, int64_t received_ns) {
+  return plan_.uses_time_of_receipt || header.stamp_ns == 0 ? received_ns : header.stamp_ns;
+}
+
+bool RecordingReader::mount(const MessageHeader& header, Scan& scan) {
+  const auto T = plan_.transforms.find(plan_.robot_frame, header.frame, header.stamp_ns);
+  if (!T)
+    note("no transform from frame " + plan_.robot_frame + " to " + header.frame +
+             ": the sensor is taken to stand in the robot's middle",
+         scan.place);
+  scan.T_robot_sensor = T.value_or(Pose{});
+  return plan_.space == Space::se3 || mount_in_plane(scan);
+}
+
+bool RecordingReader::mount_in_plane(Scan& scan) {
+  const double upwards = scan.T_robot_sensor.rotation_matrix()(2, 2);
+  if (std::abs(upwards) < kMostTilted) {
+    lose("scans of a tilted laser: no planar map can be made of them", scan.place);
+    return false;
+  }
+  scan.is_upside_down = upwards < 0;
+  scan.T_robot_sensor = in_plane(scan.T_robot_sensor);
+  return true;
+}
+
+void RecordingReader::add_odometry(const MessageHeader& header, int64_t received_ns,
+                                   const Pose& T_odom_robot) {
+  ++report_.odometry_records;
+  odometry_.add(clock_ns(header, received_ns),
+                plan_.space == Space::se2 ? in_plane(T_odom_robot) : T_odom_robot);
+}
+
+void RecordingReader::add_transforms(const RecordedMessage& message, const RecordedTopic& topic) {
+  const TransformMessages all = read_transforms({message.data, *topic.wire});
+  lose("transforms that are no poses on " + topic.name, place(topic), all.refused);
+  for (const TransformMessage& transform : all.transforms) {
+    plan_.transforms.add(transform, is_static_topic(topic.name));
+    if (plan_.odometry_topic.empty() && transform.child_frame == plan_.robot_frame &&
+        transform.header.frame == plan_.odom_frame)
+      add_odometry(transform.header, message.received_ns, transform.T_parent_child);
+  }
+}
+
+/// Gives the scans at the front their poses. True if one was placed.
+bool RecordingReader::place_scans() {
+  const size_t before = ahead_.size();
+  while (!waiting_.empty()) {
+    Scan& scan = waiting_.front();
+    auto T_odom_robot = odometry_.between(scan.stamp_ns);
+    if (!T_odom_robot) {
+      if (!waits_too_long(scan)) break;
+      T_odom_robot = odometry_.at(scan.stamp_ns);
+    }
+    if (T_odom_robot) {
+      scan.T_odom_robot = *T_odom_robot;
+      if (scan.is_laser)
+        limits_[scan.sensor].add(scan.laser.ranges_m,
+                                 (scan.T_odom_robot * scan.T_robot_sensor).translation.head<2>());
+      ahead_.push_back(std::move(scan));
+    } else {
+      lose("scans without odometry at their time", scan.place);
+    }
+    waiting_.pop_front();
+  }
+  return ahead_.size() > before;
+}
+
+bool RecordingReader::waits_too_long(const Scan& scan) const {
+  return at_end_ || waiting_.size() > kMaxWaiting ||
+         stamp_distance(last_received_ns_, scan.received_ns) > kMaxWait_ns;
+}
+
+Reading RecordingReader::reading(const Scan& scan, const Pose& T_odom_robot) {
+  Reading reading;
+  reading.sensor = static_cast<int>(scan.sensor);
+  reading.T_robot_sensor = scan.T_robot_sensor;
+  // Seen a little later than the first of the observation.
+  if (!(scan.T_odom_robot == T_odom_robot))
+    reading.T_robot_sensor = relative_pose(T_odom_robot, scan.T_odom_robot) * scan.T_robot_sensor;
+  return scan.is_laser ? laser_reading(scan, std::move(reading))
+                       : cloud_reading(scan, std::move(reading));
+}
+
+Reading RecordingReader::laser_reading(const Scan& scan, Reading reading) {
+  const LaserScanMessage& laser = scan.laser;
+  const bool tells_range = laser.range_max_m > 0 && laser.range_max_m <= kGreatestMaxRange;
+  reading.max_range_m = tells_range ? laser.range_max_m : kDefaultMaxRange;
+  if (const auto limit_m = limits_.at(scan.sensor).limit_m())
+    reading.max_range_m = std::min(reading.max_range_m, *limit_m);
+  std::vector<double> ranges_m = laser.ranges_m;
+  int64_t too_near = 0;
+  for (double& range_m : ranges_m) {
+    if (!(range_m > 0 && range_m < laser.range_min_m)) continue;
+    range_m = 0;
+    ++too_near;
+  }
+  if (ranges_m.empty()) note("scans without beams", scan.place);
+  // Seen from above, the beams of a laser that hangs upside down turn the other way.
+  const double turn = scan.is_upside_down ? -1 : 1;
+  const DroppedRanges dropped =
+      add_ranges(ranges_m, turn * laser.angle_min_rad, turn * laser.angle_increment_rad, reading);
+  note("ranges left out: not a number", scan.place, dropped.not_a_number);
+  note("ranges left out: below range_min", scan.place, too_near);
+  note("ranges left out: zero or negative", scan.place, dropped.not_positive - too_near);
+  return reading;
+}
+
+Reading RecordingReader::cloud_reading(const Scan& scan, Reading reading) {
+  const CloudPoints& cloud = scan.cloud.cloud;
+  reading.points_sensor = cloud.points;
+  complete_cloud(reading);
+  note_cloud(report_, cloud, scan.place);
+  return reading;
+}
+
+void RecordingReader::note_stamp(const Scan& scan) {
+  if (last_stamp_s_ && scan.own_stamp_s < *last_stamp_s_) {
+    note("stamps run backwards", scan.place);
+  } else if (last_stamp_s_ && scan.own_stamp_s == *last_stamp_s_) {
+    note("stamps repeated", scan.place);
+  }
+  last_stamp_s_ = scan.own_stamp_s;
+}
+
+void RecordingReader::note(const std::string& what, const std::string& place, int64_t times) {
+  add_note(report_, what, place, times);
+}
+
+void RecordingReader::lose(const std::string& what, const std::string& place, int64_t times) {
+  add_loss(report_, what, place, times);
+}
+
+std::string RecordingReader::place(const RecordedTopic& topic) const {
+  return path_.string() + ": message " + std::to_string(messages_) + ", " + topic.name;
+}
+
+}  // namespace hmt::submap
