@@ -98,6 +98,10 @@ Action add_map(CLI::App& command) {
                   "Groups of fewer keyframes are not cut")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  command.add_flag(
+      "--sequential", options.partition.sequential,
+      "Partition in one pass, as on the robot's way: areas that it has left for another "
+      "are closed (-v tells when)");
   command
       .add_option("--keyframe-distance", options.track.keyframe_distance_m,
                   "A keyframe every so many metres")

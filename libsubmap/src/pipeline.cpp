@@ -18,6 +18,7 @@
 #include "hmt/submap/link/robust_solution.hpp"
 #include "hmt/submap/local/optimize_submap.hpp"
 #include "hmt/submap/map/octree.hpp"
+#include "hmt/submap/partition/submap_manager.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -129,6 +130,21 @@ std::vector<Matrix6d> submap_covariances(const Track& track, std::span<const Pos
   return covariances;
 }
 
+/// Submap of each keyframe: of the whole at once, or as the robot would on its way.
+graph::Labels partition_all(const Track& track, const graph::WeightedGraph& overlap,
+                            std::span<const Constraint> constraints, const std::string& stage,
+                            const SubmapPartitionOptions& options, const Run& run) {
+  if (!options.sequential)
+    return partition_keyframes(track.space, overlap, constraints, options, run.threads);
+  return partition_in_sequence(
+      track.space, overlap, constraints, options, [&](int keyframe, const AreaEvent& event) {
+        const bool entered = event.kind == AreaEvent::Kind::entered;
+        run.log_info(stage + ": keyframe " + std::to_string(keyframe) +
+                     (entered ? ": entered area " : ": closed area ") + std::to_string(event.area) +
+                     " of " + std::to_string(event.keyframes.size()) + " keyframes");
+      });
+}
+
 /// Cuts the keyframes into submaps, optimizes each on its own, links them and places them in the
 /// world.
 void make_submaps(MapFile& file, const Track& track, const std::string& stage,
@@ -137,7 +153,7 @@ void make_submaps(MapFile& file, const Track& track, const std::string& stage,
   const std::vector<Constraint> constraints = file.load_constraints();
   const graph::WeightedGraph overlap(static_cast<int>(track.keyframes.size()), file.load_overlap());
   const graph::Labels partition =
-      partition_keyframes(track.space, overlap, constraints, options.partition, run.threads);
+      partition_all(track, overlap, constraints, stage, options.partition, run);
   const std::vector<Submap> submaps = optimize_submaps(
       make_submap_jobs(track.space, partition, T_world_keyframe, constraints), run);
   std::vector<Link> links =
@@ -340,21 +356,20 @@ void build_octrees(MapFile& file, const Options& options, const Run& run) {
 }  // namespace
 
 std::string to_json(const Options& options) {
-  const nlohmann::ordered_json json = {
-      {"log",
-       {{"scan_topics", options.log.scan_topics},
-        {"odometry_topic", options.log.odometry_topic},
-        {"odometry_file", options.log.odometry_file}}},
-      {"track",
-       {{"keyframe_distance_m", options.track.keyframe_distance_m},
-        {"keyframe_angle_rad", options.track.keyframe_angle_rad}}},
-      {"overlap",
-       {{"max_mahalanobis", options.overlap.max_mahalanobis},
-        {"min_overlap", options.overlap.min_overlap}}},
-      {"local", {{"min_overlap", options.local.min_overlap}}},
-      {"partition",
-       {{"tau", options.partition.tau}, {"min_keyframes", options.partition.min_keyframes}}},
-      {"octree", {{"resolution_m", options.octree_resolution_m}}}};
+  nlohmann::ordered_json json;
+  json["log"] = {{"scan_topics", options.log.scan_topics},
+                 {"odometry_topic", options.log.odometry_topic},
+                 {"odometry_file", options.log.odometry_file}};
+  json["track"] = {{"keyframe_distance_m", options.track.keyframe_distance_m},
+                   {"keyframe_angle_rad", options.track.keyframe_angle_rad}};
+  json["overlap"] = {{"max_mahalanobis", options.overlap.max_mahalanobis},
+                     {"min_overlap", options.overlap.min_overlap}};
+  json["local"] = {{"min_overlap", options.local.min_overlap}};
+  json["partition"] = {{"tau", options.partition.tau},
+                       {"min_keyframes", options.partition.min_keyframes},
+                       {"sequential", options.partition.sequential},
+                       {"max_window", options.partition.max_window}};
+  json["octree"] = {{"resolution_m", options.octree_resolution_m}};
   return json.dump();
 }
 

@@ -84,6 +84,20 @@ TEST_F(MapCommand, RefusesToGoOnWithOtherOptions) {
   EXPECT_THAT(result.err, HasSubstr("--force"));
 }
 
+TEST_F(MapCommand, PartitionsOnItsWayAndTellsSo) {
+  const CommandResult result =
+      run_hmtmap("-v --json map " + path("log") + " --sequential -o " + path("way.hmt"));
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("keyframe 0: entered area 0 of 1 keyframes"));
+  EXPECT_THAT(result.err, HasSubstr(": closed area 0 of "));
+  // Places that the robot comes back to are areas anew.
+  const CommandResult whole = run_hmtmap("--json info " + path("one.hmt"));
+  EXPECT_GE(result.json().at("submaps").get<size_t>(), whole.json().at("submaps").size());
+  const CommandResult info = run_hmtmap("--json info " + path("way.hmt"));
+  EXPECT_EQ(info.json().at("options").at("partition").at("sequential"), true);
+  EXPECT_EQ(run_hmtmap("map " + path("log") + " -o " + path("way.hmt")).code, 1);
+}
+
 TEST_F(MapCommand, RefusesWhatIsNotALog) {
   std::ofstream(path("empty"));
   std::ofstream(path("junk"), std::ios::binary) << std::string(1000, '\xff');

@@ -16,6 +16,11 @@ struct SubmapPartitionOptions {
   double tau = 2.0 / 3.0;
   /// Groups of fewer keyframes are not cut any further, >= 1.
   int min_keyframes = 8;
+  /// Partition as a robot would on its way (SubmapManager) instead of the whole at once.
+  bool sequential = false;
+  /// Keyframes that the sequential partition holds at most, >= 2; raising it tells places apart
+  /// that the robot sees for longer, at a cost of each step that is linear in it.
+  int max_window = 200;
 };
 
 /// Submap of each keyframe: the recursive min-Ncut partition of Omega, then made fit for local
