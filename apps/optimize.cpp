@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "hmt/graph/chi_squared.hpp"
 #include "hmt/graph/g2o_file.hpp"
 #include "hmt/graph/input_error.hpp"
 #include "hmt/graph/pose_covariance.hpp"
@@ -32,9 +34,9 @@ enum class Method { flat, submaps };
 struct OptimizeArguments {
   std::string input;
   std::string output;
+  std::string verdicts;  ///< empty: none are written
   graph::PoseOptimizerOptions options;
   Method method = Method::flat;
-  bool condition = false;
   bool force = false;
 };
 
@@ -70,8 +72,9 @@ const char* name_of(graph::Initialization start) {
 
 // Asked before the work, so that a long run does not end in a refusal.
 void refuse_to_overwrite(const OptimizeArguments& arguments) {
-  if (!arguments.force && std::filesystem::exists(arguments.output))
-    throw graph::InputError(arguments.output + ": exists; choose another name or give --force");
+  for (const std::string& path : {arguments.output, arguments.verdicts})
+    if (!arguments.force && !path.empty() && std::filesystem::exists(path))
+      throw graph::InputError(path + ": exists; choose another name or give --force");
 }
 
 /// "12, 13, 14, ..." of the edges that `wanted` picks.
@@ -137,18 +140,54 @@ nlohmann::ordered_json starts_to_json(const std::vector<graph::StartReport>& sta
   return all;
 }
 
-/// Line in the file's terms of every edge that was judged an outlier.
+/// In the file's terms, every edge that was judged an outlier.
 nlohmann::ordered_json outliers_to_json(const graph::G2oFile& file,
                                         const graph::PoseOptimizerReport& report) {
   nlohmann::ordered_json outliers = nlohmann::ordered_json::array();
   for (size_t k = 0; k < report.inlier.size(); ++k) {
     if (report.inlier[k]) continue;
     const graph::PoseGraphEdge& edge = file.graph.edges[k];
-    outliers.push_back({{"from", file.ids[static_cast<size_t>(edge.from)]},
+    outliers.push_back({{"edge", k},
+                        {"from", file.ids[static_cast<size_t>(edge.from)]},
                         {"to", file.ids[static_cast<size_t>(edge.to)]},
                         {"chi2", report.edge_chi2[k]}});
   }
   return outliers;
+}
+
+/// One line an edge, in the order of the file.
+void write_verdicts(const std::string& path, const graph::G2oFile& file,
+                    const graph::PoseOptimizerReport& report) {
+  std::string text = "edge,from,to,chi2,inlier\n";
+  for (size_t k = 0; k < report.inlier.size(); ++k) {
+    const graph::PoseGraphEdge& edge = file.graph.edges[k];
+    text += fmt::format("{},{},{},{},{}\n", k, file.ids[static_cast<size_t>(edge.from)],
+                        file.ids[static_cast<size_t>(edge.to)], report.edge_chi2[k],
+                        report.inlier[k] ? 1 : 0);
+  }
+  const std::string unfinished = path + ".part";
+  std::ofstream out(unfinished, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(unfinished, path, error);
+  if (!out || error) throw graph::InputError(path + ": cannot be written");
+}
+
+/// What chi2 should be if the information is right and all edges are true.
+struct Expectation {
+  double low = 0;  ///< of the interval that holds chi2 with a probability of 95 %
+  double high = 0;
+  double p_value = 1;  ///< probability of a chi2 at least as large
+};
+
+/// Nothing where no edge is left over to contradict the others.
+std::optional<Expectation> expectation_of(const graph::PoseOptimizerReport& report) {
+  const auto dof = static_cast<int>(report.degrees_of_freedom);
+  if (dof < 1) return std::nullopt;
+  return Expectation{graph::chi_squared_quantile(dof, 0.025),
+                     graph::chi_squared_quantile(dof, 0.975),
+                     graph::chi_squared_survival(dof, report.chi2)};
 }
 
 nlohmann::ordered_json to_json(const graph::SubmapReport& submaps) {
@@ -162,35 +201,61 @@ nlohmann::ordered_json to_json(const graph::SubmapReport& submaps) {
 }
 
 nlohmann::ordered_json to_json(const graph::G2oFile& file, const graph::PoseOptimizerReport& report,
-                               double wall_s) {
-  nlohmann::ordered_json json = {{"poses", file.graph.poses.size()},
-                                 {"edges", file.graph.edges.size()},
-                                 {"chi2_initial", report.chi2_initial},
-                                 {"chi2", report.chi2},
-                                 {"degrees_of_freedom", report.degrees_of_freedom},
-                                 {"iterations", report.iterations},
-                                 {"termination", name_of(report.termination)},
-                                 {"start", name_of(report.start)},
-                                 {"starts", starts_to_json(report.starts)},
-                                 {"cost", report.cost},
-                                 {"gradient_norm", report.gradient_norm},
-                                 {"outliers", outliers_to_json(file, report)},
-                                 {"input", inputs_to_json(file)},
-                                 {"solve_s", report.solve_s},
-                                 {"wall_s", wall_s}};
+                               std::optional<double> condition, double wall_s) {
+  nlohmann::ordered_json json = {
+      {"poses", file.graph.poses.size()},
+      {"edges", file.graph.edges.size()},
+      {"chi2_initial", report.chi2_initial},
+      {"chi2", report.chi2},
+      {"degrees_of_freedom", report.degrees_of_freedom},
+      {"iterations", report.iterations},
+      {"termination", name_of(report.termination)},
+      {"start", name_of(report.start)},
+      {"starts", starts_to_json(report.starts)},
+      {"cost", report.cost},
+      {"gradient_norm", report.gradient_norm},
+      {"inliers", std::count(report.inlier.begin(), report.inlier.end(), true)},
+      {"outliers", outliers_to_json(file, report)},
+      {"input", inputs_to_json(file)},
+      {"solve_s", report.solve_s},
+      {"wall_s", wall_s}};
+  if (condition) json["condition"] = *condition;
+  if (const auto expected = expectation_of(report)) {
+    json["chi2_95_percent"] = {expected->low, expected->high};
+    json["chi2_p_value"] = expected->p_value;
+  }
   return json;
 }
 
+/// "below", "within" or "above" what is expected, and what that means.
+std::string judge(const graph::PoseOptimizerReport& report) {
+  const auto expected = expectation_of(report);
+  if (!expected) return "no edge more than the poses need";
+  const char* const verdict =
+      report.chi2 < expected->low    ? "less: the edges are better than their information states"
+      : report.chi2 > expected->high ? "more: false edges, or too much information"
+                                     : "as expected";
+  return fmt::format("{:.6g} to {:.6g} in 95 % of cases if the information is right; {}",
+                     expected->low, expected->high, verdict);
+}
+
 std::string to_text(const graph::G2oFile& file, const graph::PoseOptimizerReport& report,
-                    double wall_s) {
+                    std::optional<double> condition, double wall_s) {
   std::string text = fmt::format(
       "{} poses, {} edges\n"
-      "chi2         {:.9g} -> {:.9g} (expected {:.0f} if the information is right)\n"
+      "chi2         {:.9g} -> {:.9g}\n"
+      "expected     {}\n"
       "start        {}\n"
       "termination  {} after {} iterations, gradient {:.2g}\n",
       file.graph.poses.size(), file.graph.edges.size(), report.chi2_initial, report.chi2,
-      report.degrees_of_freedom, name_of(report.start), name_of(report.termination),
-      report.iterations, report.gradient_norm);
+      judge(report), name_of(report.start), name_of(report.termination), report.iterations,
+      report.gradient_norm);
+  text += condition ? fmt::format("condition    {:.3g}\n", *condition)
+                    : "condition    singular: the edges leave poses open\n";
+  for (const graph::StartReport& start : report.starts)
+    if (report.starts.size() > 1)
+      text += fmt::format("  from {:<13} chi2 {:.9g}, cost {:.9g}\n", name_of(start.start),
+                          start.chi2_start, start.cost);
   const auto outliers = std::count(report.inlier.begin(), report.inlier.end(), false);
   if (outliers > 0) text += fmt::format("outliers     {} edges\n", outliers);
   return text +
@@ -224,16 +289,12 @@ int run_optimize(const OptimizeArguments& arguments, const Globals& globals) {
   }
   file.graph.poses = std::move(result.poses);
   graph::write_g2o(arguments.output, file);
+  if (!arguments.verdicts.empty()) write_verdicts(arguments.verdicts, file, report);
+  const auto condition = graph::PoseCovariance(file.graph).condition();
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  nlohmann::ordered_json json = to_json(file, report, wall_s);
-  if (arguments.condition) {
-    const auto condition = graph::PoseCovariance(file.graph).condition();
-    if (condition) json["condition"] = *condition;
-    run.log_info(condition ? fmt::format("condition of the information matrix: {:.3g}", *condition)
-                           : "the information matrix is singular: poses are left open");
-  }
+  nlohmann::ordered_json json = to_json(file, report, condition, wall_s);
   if (submaps) json["by_submaps"] = to_json(*submaps);
-  print_result(globals, json, to_text(file, report, wall_s));
+  print_result(globals, json, to_text(file, report, condition, wall_s));
   return losses ? kDoneWithLosses : kDone;
 }
 
@@ -263,8 +324,8 @@ Action add_optimize(CLI::App& command) {
   command.add_option("--max-iterations", options.max_iterations, "Upper limit of one solve")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command.add_flag("--condition", arguments->condition,
-                   "Report the condition number of the information matrix; costs a factorization");
+  command.add_option("--verdicts", arguments->verdicts,
+                     "CSV file of all edges in the order of the graph: edge,from,to,chi2,inlier");
   command.add_flag("--force", arguments->force, "Overwrite files that exist");
   command.footer(
       "chi2 is that of the g2o format: the sum of r^T Omega r with r = (R_z^T (t_rel - t_z), yaw) "

@@ -4,6 +4,7 @@
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "openmp_guard.hpp"
 #include "pose_problem.hpp"
@@ -133,6 +134,8 @@ template <int d>
 std::optional<std::vector<Pose>> relax(const PoseGraph& graph) {
   const std::vector<int> unknown = unknowns_of(held_nodes(graph));
   std::vector<Pose> poses = graph.poses;
+  // CHOLMOD does not take an empty system.
+  if (std::all_of(unknown.begin(), unknown.end(), [](int u) { return u < 0; })) return poses;
   if (!relax_rotations<d>(graph, unknown, poses)) return std::nullopt;
   if (!solve_translations<d>(graph, unknown, poses)) return std::nullopt;
   return poses;

@@ -10,12 +10,16 @@
 #include <numbers>
 #include <utility>
 
+#include "hmt/graph/chi_squared.hpp"
 #include "hmt/graph/pose_covariance.hpp"
 #include "spanning_tree.hpp"
 
 namespace hmt::graph {
 namespace {
 
+/// Edges that agree with the prediction to this quantile come first: a false one that is barely
+/// possible is out of the question once the predictions are sharper.
+constexpr double kFirstProbability = 0.95;
 /// Probabilities of a false edge to pass up to which edges are accepted, one after the other.
 constexpr std::array<double, 5> kFalsePassLevels = {1e-4, 1e-3, 1e-2, 1e-1, 1};
 /// Rounds at one level; the set stands after a few.
@@ -26,7 +30,13 @@ constexpr int kIterationsPerRound = 10;
 /// Degrees of freedom from which chi2 tells the scale of the noise, and the least scale that is
 /// believed.
 constexpr double kDegreesForScale = 30;
-constexpr double kLeastScale = 0.01;
+constexpr double kLeastScale = 1e-6;
+/// Where the errors of all edges tell the scale: below what half of them being false can reach.
+constexpr double kBulkProbability = 0.25;
+/// Where the errors of the accepted ones do, which may have longer tails than a normal deviate.
+constexpr double kTailProbability = 0.99;
+/// Ratio of chi2 that sets the false edges apart from the tail of the true ones.
+constexpr double kClearGap = 2;
 
 PoseGraph subgraph(const PoseGraph& graph, const std::vector<bool>& use, std::vector<Pose> poses) {
   PoseGraph part;
@@ -58,10 +68,40 @@ double log_unit_ball(int size) {
   return std::log(size == 3 ? 4 * pi / 3 : pi * pi * pi / 6);
 }
 
+/// The `share` quantile of the values as a multiple of that of chi2; 0 for no values.
+double scale_at(std::vector<double> chi2, double share, int size) {
+  if (chi2.empty()) return 0;
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(chi2.size()));
+  std::nth_element(chi2.begin(), chi2.begin() + rank, chi2.end());
+  return chi2[static_cast<size_t>(rank)] / chi_squared_quantile(size, share);
+}
+
+/// The value below the widest gap, in logarithms, of the values within [low, high]; `high` where no
+/// gap is clear.
+double below_widest_gap(std::vector<double> values, double low, double high) {
+  std::erase_if(values, [&](double value) { return value <= low || value >= high; });
+  values.push_back(low);
+  values.push_back(high);
+  std::sort(values.begin(), values.end());
+  size_t widest = 0;
+  for (size_t k = 0; k + 1 < values.size(); ++k)
+    if (values[k + 1] / values[k] > values[widest + 1] / values[widest]) widest = k;
+  return values[widest + 1] > kClearGap * values[widest] ? values[widest] : high;
+}
+
 /// How an edge that is not in the set agrees with the solution over the set.
 struct Prediction {
-  double chi2 = 0;            ///< r^T S^-1 r
-  double log_false_pass = 0;  ///< logarithm of the probability of a false edge to pass
+  size_t edge = 0;
+  double chi2 = 0;          ///< r^T S^-1 r
+  double log_root_det = 0;  ///< logarithm of det(S)^(1/2)
+};
+
+/// What an edge must meet to be accepted: chi2 up to `limit`, and a gate of that size that a false
+/// edge passes with at most this probability.
+struct Gate {
+  double limit = 0;
+  double false_pass = 1;
+  bool by_tail = false;  ///< the scale of the noise is that of the longest tail of the accepted
 };
 
 template <class Chart>
@@ -71,81 +111,135 @@ class Grower {
          PoseProblem<Chart>& problem)
       : graph_(graph), trusted_(trusted), limit_(limit), threads_(threads), problem_(problem) {}
 
-  std::optional<std::vector<bool>> run() {
+  std::optional<Consensus> run() {
     accepted_ = trusted_;
     const PoseGraph backbone = subgraph(graph_, trusted_, graph_.poses);
     problem_.set_poses(spanning_tree_poses(backbone, held_nodes(graph_)));
     if (connected_components(backbone) != connected_components(graph_)) return std::nullopt;
-    problem_.solve(to_weights(accepted_), 0, kIterationsPerRound);
-    log_gate_ = log_unit_ball(Chart::kTangent) + Chart::kTangent / 2.0 * std::log(limit_) -
-                log_volume_of_map(subgraph(graph_, {}, problem_.poses()), Chart::kTangent / 3 + 1);
-    for (const double level : kFalsePassLevels)
+    solve();
+    log_volume_ =
+        log_volume_of_map(subgraph(graph_, {}, problem_.poses()), Chart::kTangent / 3 + 1);
+    if (!predict_all()) return std::nullopt;
+    for (const Gate& gate : gates())
       for (int round = 0; round < kRoundsPerLevel; ++round) {
-        const auto next = grow(std::log(level));
-        if (!next) return std::nullopt;
-        if (*next == accepted_) break;
-        accepted_ = *next;
-        problem_.solve(to_weights(accepted_), 0, kIterationsPerRound);
+        const std::vector<bool> next = pass(gate);
+        if (next == accepted_) break;
+        accepted_ = next;
+        solve();
+        if (!predict_all()) return std::nullopt;
       }
-    return accepted_;
+    return take_in_the_tail();
   }
 
  private:
-  std::optional<std::vector<bool>> grow(double log_level) const {
-    const PoseGraph present = subgraph(graph_, accepted_, problem_.poses());
-    const PoseCovariance covariance(present);
-    if (!covariance.ok()) return std::nullopt;
-    std::vector<std::pair<int, int>> pairs;
-    std::vector<size_t> open;
-    for (size_t k = 0; k < accepted_.size(); ++k) {
-      if (accepted_[k]) continue;
-      open.push_back(k);
-      pairs.emplace_back(graph_.edges[k].from, graph_.edges[k].to);
-    }
-    const auto relative = covariance.relative(pairs, threads_);
-    const std::vector<double> chi2 = problem_.edge_chi2();
-    const double scale = variance_scale(chi2);
+  std::vector<Gate> gates() const {
+    std::vector<Gate> all;
+    const double first = chi_squared_quantile(Chart::kTangent, kFirstProbability);
+    for (const double level : kFalsePassLevels) all.push_back({first, level, false});
+    for (const double level : kFalsePassLevels) all.push_back({limit_, level, false});
+    all.push_back({limit_, 1, true});
+    return all;
+  }
+
+  void solve() {
+    problem_.solve(to_weights(accepted_), 0, kIterationsPerRound);
+    chi2_ = problem_.edge_chi2();
+  }
+
+  /// The accepted edges that still agree, and the others that pass the gate.
+  std::vector<bool> pass(const Gate& gate) const {
     std::vector<bool> next = accepted_;
     for (size_t k = 0; k < next.size(); ++k)
-      next[k] = trusted_[k] || (next[k] && chi2[k] <= limit_);
-    for (size_t i = 0; i < open.size(); ++i) {
-      const auto prediction =
-          predict(graph_.edges[open[i]], present.poses, relative[i].value(), scale);
-      if (!prediction) return std::nullopt;
-      next[open[i]] = prediction->chi2 <= limit_ && prediction->log_false_pass <= log_level;
-    }
+      next[k] = trusted_[k] || (next[k] && chi2_[k] <= limit_);
+    const double limit = gate.limit * (gate.by_tail ? scale_of_tail() : scale_of_bulk());
+    const double log_gate =
+        log_unit_ball(Chart::kTangent) + Chart::kTangent / 2.0 * std::log(limit) - log_volume_;
+    for (const Prediction& p : predictions_)
+      if (p.chi2 <= limit && log_gate + p.log_root_det <= std::log(gate.false_pass))
+        next[p.edge] = true;
     return next;
   }
 
+  /// The edges beyond the limit that the scale of the noise sets, up to the one of the information
+  /// as stated, belong to the bulk or to the false ones: the widest gap between them decides.
+  Consensus take_in_the_tail() const {
+    std::vector<double> predicted;
+    for (const Prediction& p : predictions_) predicted.push_back(p.chi2);
+    Consensus consensus{accepted_, 0};
+    consensus.limit_of_others = below_widest_gap(predicted, limit_ * scale_of_tail(), limit_);
+    for (const Prediction& p : predictions_)
+      if (p.chi2 <= consensus.limit_of_others) consensus.accepted[p.edge] = true;
+    return consensus;
+  }
+
+  /// Predicts every edge that is not in the set; false where that is not possible.
+  bool predict_all() {
+    predictions_.clear();
+    const PoseGraph present = subgraph(graph_, accepted_, problem_.poses());
+    const PoseCovariance covariance(present);
+    if (!covariance.ok()) return false;
+    std::vector<std::pair<int, int>> pairs;
+    for (size_t k = 0; k < accepted_.size(); ++k) {
+      if (accepted_[k]) continue;
+      predictions_.push_back({k, 0, 0});
+      pairs.emplace_back(graph_.edges[k].from, graph_.edges[k].to);
+    }
+    const auto relative = covariance.relative(pairs, threads_);
+    for (size_t i = 0; i < pairs.size(); ++i)
+      if (!predict(present.poses, relative[i].value(), predictions_[i])) return false;
+    return true;
+  }
+
+  bool predict(const std::vector<Pose>& poses, const Matrix6d& relative,
+               Prediction& prediction) const {
+    using Matrix = Eigen::Matrix<double, Chart::kTangent, Chart::kTangent>;
+    const PoseGraphEdge& edge = graph_.edges[prediction.edge];
+    const Eigen::LLT<Matrix> information(chart_block<Chart>(edge.information));
+    if (information.info() != Eigen::Success) return false;
+    const Matrix S = chart_block<Chart>(relative) + information.solve(Matrix::Identity());
+    const Eigen::LLT<Matrix> llt(S);
+    if (llt.info() != Eigen::Success) return false;
+    const Pose T_from_to =
+        relative_pose(poses[static_cast<size_t>(edge.from)], poses[static_cast<size_t>(edge.to)]);
+    const auto r = chart_vector<Chart>(boxminus(T_from_to, edge.T_from_to));
+    prediction.chi2 = r.dot(llt.solve(r));
+    prediction.log_root_det = llt.matrixLLT().diagonal().array().log().sum();
+    return true;
+  }
+
   /// chi2 of the set by its degrees of freedom, at most 1: many graphs state far less information
-  /// than their edges have, and predictions from it would let nearly anything pass.
-  double variance_scale(const std::vector<double>& chi2) const {
+  /// than their edges have, and predictions from it would let nearly anything pass. While the set
+  /// has few loops, the smaller errors of all edges say how large the noise may be.
+  double scale_of_bulk() const {
+    std::vector<double> doubted = accepted_errors();
+    for (const Prediction& p : predictions_) doubted.push_back(p.chi2);
+    const double bulk = scale_at(std::move(doubted), kBulkProbability, Chart::kTangent);
+    return std::clamp(std::max(bulk, scale_of_set()), kLeastScale, 1.0);
+  }
+  double scale_of_tail() const {
+    const double tail = scale_at(accepted_errors(), kTailProbability, Chart::kTangent);
+    return std::clamp(std::max(tail, scale_of_set()), kLeastScale, 1.0);
+  }
+
+  double scale_of_set() const {
     double sum = 0;
     double degrees = 0;
-    for (size_t k = 0; k < chi2.size(); ++k)
+    for (size_t k = 0; k < accepted_.size(); ++k)
       if (accepted_[k]) {
-        sum += chi2[k];
+        sum += chi2_[k];
         degrees += Chart::kTangent;
       }
     const std::vector<bool> held = held_nodes(graph_);
     degrees -= static_cast<double>(Chart::kTangent * std::count(held.begin(), held.end(), false));
-    if (degrees < kDegreesForScale) return 1;
-    return std::clamp(sum / degrees, kLeastScale, 1.0);
+    return degrees < kDegreesForScale ? 0 : sum / degrees;
   }
 
-  std::optional<Prediction> predict(const PoseGraphEdge& edge, const std::vector<Pose>& poses,
-                                    const Matrix6d& relative, double scale) const {
-    using Matrix = Eigen::Matrix<double, Chart::kTangent, Chart::kTangent>;
-    const Eigen::LLT<Matrix> information(chart_block<Chart>(edge.information));
-    if (information.info() != Eigen::Success) return std::nullopt;
-    const Matrix S = scale * (chart_block<Chart>(relative) + information.solve(Matrix::Identity()));
-    const Eigen::LLT<Matrix> llt(S);
-    if (llt.info() != Eigen::Success) return std::nullopt;
-    const Pose T_from_to =
-        relative_pose(poses[static_cast<size_t>(edge.from)], poses[static_cast<size_t>(edge.to)]);
-    const auto r = chart_vector<Chart>(boxminus(T_from_to, edge.T_from_to));
-    const double log_root_det = llt.matrixLLT().diagonal().array().log().sum();
-    return Prediction{r.dot(llt.solve(r)), log_gate_ + log_root_det};
+  /// chi2 of the accepted edges that are not trusted.
+  std::vector<double> accepted_errors() const {
+    std::vector<double> errors;
+    for (size_t k = 0; k < accepted_.size(); ++k)
+      if (accepted_[k] && !trusted_[k]) errors.push_back(chi2_[k]);
+    return errors;
   }
 
   const PoseGraph& graph_;
@@ -154,21 +248,22 @@ class Grower {
   int threads_;
   PoseProblem<Chart>& problem_;
   std::vector<bool> accepted_;
-  double log_gate_ = 0;  ///< of the gate of a unit covariance, as a share of the map
+  std::vector<double> chi2_;             ///< of every edge at the present solution
+  std::vector<Prediction> predictions_;  ///< of the edges that are not accepted
+  double log_volume_ = 0;                ///< of all relative poses within the map
 };
 
 }  // namespace
 
 template <class Chart>
-std::optional<std::vector<bool>> grow_consensus(const PoseGraph& graph,
-                                                const std::vector<bool>& trusted, double limit,
-                                                int threads, PoseProblem<Chart>& problem) {
+std::optional<Consensus> grow_consensus(const PoseGraph& graph, const std::vector<bool>& trusted,
+                                        double limit, int threads, PoseProblem<Chart>& problem) {
   return Grower<Chart>(graph, trusted, limit, threads, problem).run();
 }
 
-template std::optional<std::vector<bool>> grow_consensus(const PoseGraph&, const std::vector<bool>&,
-                                                         double, int, PoseProblem<PlanarChart>&);
-template std::optional<std::vector<bool>> grow_consensus(const PoseGraph&, const std::vector<bool>&,
-                                                         double, int, PoseProblem<SpatialChart>&);
+template std::optional<Consensus> grow_consensus(const PoseGraph&, const std::vector<bool>&, double,
+                                                 int, PoseProblem<PlanarChart>&);
+template std::optional<Consensus> grow_consensus(const PoseGraph&, const std::vector<bool>&, double,
+                                                 int, PoseProblem<SpatialChart>&);
 
 }  // namespace hmt::graph

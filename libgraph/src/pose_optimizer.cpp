@@ -124,7 +124,12 @@ PoseOptimizerResult optimize_in(Chart, const PoseGraph& graph,
                                 const PoseOptimizerOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const PoseProblem<Chart> problem(graph);
-  const std::vector<Start> starts = choose_starts(graph, options.initialization, options.restarts);
+  PoseProblem<Chart> scratch = problem;
+  const std::vector<Start> starts = choose_starts(graph, options.initialization, options.restarts,
+                                                  [&](const std::vector<Pose>& poses) {
+                                                    scratch.set_poses(poses);
+                                                    return sum(scratch.edge_chi2());
+                                                  });
   std::vector<Solution> solutions(starts.size());
   tbb::task_arena(options.threads).execute([&] {
     tbb::parallel_for(size_t{0}, starts.size(), [&](size_t k) {

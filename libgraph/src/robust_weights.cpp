@@ -56,8 +56,9 @@ int graduate(PoseProblem<Chart>& problem, const std::vector<bool>& trusted, doub
 
 /// Solves over the inliers until no edge changes sides.
 template <class Chart>
-SolveReport settle(PoseProblem<Chart>& problem, const std::vector<bool>& trusted, double limit,
-                   int max_iterations, std::vector<double> weights) {
+SolveReport settle(PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
+                   const std::vector<double>& limits, int max_iterations,
+                   std::vector<double> weights) {
   SolveReport total;
   int iterations = 0;
   for (int round = 0; round < kVerdictRounds; ++round) {
@@ -68,8 +69,8 @@ SolveReport settle(PoseProblem<Chart>& problem, const std::vector<bool>& trusted
     total.cost = 0;
     bool changed = false;
     for (size_t k = 0; k < chi2.size(); ++k) {
-      total.inlier[k] = trusted[k] || chi2[k] <= limit;
-      total.cost += total.inlier[k] ? chi2[k] : limit;
+      total.inlier[k] = trusted[k] || chi2[k] <= limits[k];
+      total.cost += total.inlier[k] ? chi2[k] : limits[k];
       const double weight = total.inlier[k] ? 1.0 : 0.0;
       changed = changed || weight != weights[k];
       weights[k] = weight;
@@ -96,13 +97,16 @@ SolveReport solve_gnc(const PoseGraph& graph, const std::vector<bool>& trusted, 
   const auto consensus = grow_consensus(graph, trusted, limit, threads, problem);
   std::vector<double> weights(trusted.size(), 1.0);
   int iterations = 0;
+  std::vector<double> limits(trusted.size(), limit);
   if (consensus) {
-    weights.assign(consensus->begin(), consensus->end());
+    weights.assign(consensus->accepted.begin(), consensus->accepted.end());
+    for (size_t k = 0; k < limits.size(); ++k)
+      if (!consensus->accepted[k]) limits[k] = consensus->limit_of_others;
   } else {
     problem.set_poses(given);
     iterations = graduate(problem, trusted, limit, max_iterations, weights);
   }
-  SolveReport report = settle(problem, trusted, limit, max_iterations, weights);
+  SolveReport report = settle(problem, trusted, limits, max_iterations, weights);
   report.iterations += iterations;
   return report;
 }

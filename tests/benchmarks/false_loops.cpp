@@ -21,6 +21,21 @@ int uniform_node(std::mt19937& generator, size_t count) {
   return static_cast<int>(generator() % count);
 }
 
+/// Normal deviate by Box and Muller, the same in every standard library.
+double normal(std::mt19937& generator) {
+  const double radius = std::sqrt(-2 * std::log(1 - uniform(generator, 0, 1)));
+  return radius * std::cos(2 * std::numbers::pi * uniform(generator, 0, 1));
+}
+
+/// Relative pose of 0.3 m and 10 deg (standard deviations).
+Pose small_relative_pose(graph::Space space, std::mt19937& generator) {
+  constexpr double kTurn = 10 * std::numbers::pi / 180;
+  graph::Vector6d step;
+  for (int k = 0; k < 6; ++k) step[k] = (k < 3 ? 0.3 : kTurn) * normal(generator);
+  if (space == graph::Space::se2) return Pose::planar(step[0], step[1], step[5]);
+  return boxplus(Pose{}, step);
+}
+
 /// Relative pose within the box of all poses and with any rotation.
 Pose random_relative_pose(const graph::PoseGraph& graph, std::mt19937& generator) {
   Eigen::AlignedBox3d box;
@@ -40,7 +55,7 @@ Pose random_relative_pose(const graph::PoseGraph& graph, std::mt19937& generator
 }  // namespace
 
 CorruptedGraph add_false_loops(const graph::PoseGraph& clean, double share, int group_size,
-                               unsigned seed) {
+                               FalsePose kind, unsigned seed) {
   std::mt19937 generator(seed);
   CorruptedGraph corrupted{clean, {}, std::vector<bool>(clean.edges.size(), false)};
   std::vector<size_t> loops;
@@ -62,8 +77,10 @@ CorruptedGraph add_false_loops(const graph::PoseGraph& clean, double share, int 
         to = uniform_node(generator, nodes - static_cast<size_t>(group_size));
       } while (std::abs(from - to) <= 2 * group_size);
       // Where the stretch at `to` lies in the false world, which holds for the whole group.
-      T_world_false = clean.poses[static_cast<size_t>(from)] *
-                      random_relative_pose(clean, generator) *
+      const Pose T_from_to = kind == FalsePose::anywhere
+                                 ? random_relative_pose(clean, generator)
+                                 : small_relative_pose(clean.space, generator);
+      T_world_false = clean.poses[static_cast<size_t>(from)] * T_from_to *
                       clean.poses[static_cast<size_t>(to)].inverse();
     }
     graph::PoseGraphEdge& edge = corrupted.graph.edges[loops[i]];

@@ -15,11 +15,17 @@ struct CorruptedGraph {
   std::vector<bool> is_false;  ///< one flag an edge
 };
 
-/// Replaces `share` of the loops of `clean` by false ones with the same information: each between
-/// two random nodes and with a random relative pose within the extent of the map, or
-/// `group_size` > 1 in groups that agree with each other (the same wrong offset between two
-/// stretches of the trajectory). The poses of `clean` are taken for the truth within a group.
+/// What the false loops look like.
+enum class FalsePose {
+  anywhere,   ///< a random relative pose within the extent of the map
+  same_place  ///< two random nodes taken for the same place: next to no offset
+};
+
+/// Replaces `share` of the loops of `clean` by false ones with the information of the edge that
+/// each of them replaces: each between two random nodes, or `group_size` > 1 in groups that agree
+/// with each other (the same wrong offset between two stretches of the trajectory). The poses of
+/// `clean` are taken for the truth within a group.
 CorruptedGraph add_false_loops(const graph::PoseGraph& clean, double share, int group_size,
-                               unsigned seed);
+                               FalsePose kind, unsigned seed);
 
 }  // namespace hmt::benchmarks

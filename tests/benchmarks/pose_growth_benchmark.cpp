@@ -9,8 +9,10 @@
 #include <cstdlib>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "hmt/graph/pose_optimizer.hpp"
+#include "hmt/graph/submap_optimizer.hpp"
 
 namespace hmt::benchmarks {
 namespace {
@@ -59,15 +61,30 @@ double peak_rss_mb() {
 }  // namespace
 }  // namespace hmt::benchmarks
 
-// Argument: the number of poses; one size a run, so that the peak of memory is its own.
+// Arguments: the number of poses, and `submaps` to solve by submaps; one size a run, so that the
+// peak of memory is its own.
 int main(int argc, char** argv) {
   using namespace hmt;
   const int num_poses = argc > 1 ? std::atoi(argv[1]) : 1000;
+  const bool by_submaps = argc > 2 && std::string(argv[2]) == "submaps";
   const graph::PoseGraph world = benchmarks::grid_world(num_poses, 1);
   const double before_mb = benchmarks::peak_rss_mb();
   graph::PoseOptimizerOptions options;
   options.initialization = graph::Initialization::best;
-  const graph::PoseOptimizerReport report = optimize(world, options).report;
+  options.threads = 2;
+  graph::PoseOptimizerReport report;
+  if (by_submaps) {
+    const graph::SubmapOptimizerResult parts = optimize_by_submaps(world, options);
+    report = parts.result.report;
+    std::printf(
+        "%d submaps, %d links: partition %.1f s, submaps %.1f s, links %.1f s, refinement %.1f s, "
+        "chi2 before it %.6g\n",
+        parts.submaps.submaps, parts.submaps.links, parts.submaps.partition_s,
+        parts.submaps.submaps_s, parts.submaps.links_s, parts.submaps.refinement_s,
+        parts.submaps.chi2_before_refinement);
+  } else {
+    report = optimize(world, options).report;
+  }
   std::printf(
       "%8d poses %8zu edges  chi2 %.6g of %.0f in %d iterations  %.3f s, %.2f us a pose  "
       "%.0f MB (%.0f before), %.2f kB a pose\n",

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include "false_loops.hpp"
@@ -38,9 +39,15 @@ std::vector<Pose> oracle_poses(const CorruptedGraph& corrupted) {
   return optimize(part, {}).poses;
 }
 
-void run_case(const std::string& name, const graph::PoseGraph& clean, double share, int group_size,
-              unsigned seed) {
-  const CorruptedGraph corrupted = add_false_loops(clean, share, group_size, seed);
+struct Case {
+  double share;
+  int group_size;
+  FalsePose kind;
+  unsigned seed;
+};
+
+void run_case(const std::string& name, const graph::PoseGraph& clean, const Case& c) {
+  const CorruptedGraph corrupted = add_false_loops(clean, c.share, c.group_size, c.kind, c.seed);
   graph::PoseOptimizerOptions options;
   options.robust = graph::RobustMethod::gnc;
   const graph::PoseOptimizerResult result = optimize(corrupted.graph, options);
@@ -53,30 +60,37 @@ void run_case(const std::string& name, const graph::PoseGraph& clean, double sha
     kept += result.report.inlier[k] ? 1 : 0;
     kept_true += result.report.inlier[k] && !corrupted.is_false[k] ? 1 : 0;
   }
+  const std::vector<Pose> oracle = oracle_poses(corrupted);
   std::printf(
-      "%-12s %4.0f %% %5d %6u  ATE %8.4f m (all true edges %.4f m)  precision %.4f  "
-      "recall %.4f  %6.2f s\n",
-      name.c_str(), 100 * share, group_size, seed, aligned_rmse(result.poses, clean.poses),
-      aligned_rmse(oracle_poses(corrupted), clean.poses),
+      "%-14s %3.0f %% %d %-10s %2u  precision %.4f recall %.4f  ATE to clean %.4f m (oracle %.4f), "
+      "to oracle %.4f m  %6.2f s\n",
+      name.c_str(), 100 * c.share, c.group_size,
+      c.kind == FalsePose::anywhere ? "anywhere" : "same_place", c.seed,
       static_cast<double>(kept_true) / std::max(1, kept),
-      static_cast<double>(kept_true) / std::max(1, true_loops), result.report.solve_s);
+      static_cast<double>(kept_true) / std::max(1, true_loops),
+      aligned_rmse(result.poses, clean.poses), aligned_rmse(oracle, clean.poses),
+      aligned_rmse(result.poses, oracle), result.report.solve_s);
   std::fflush(stdout);
 }
 
 }  // namespace
 }  // namespace hmt::benchmarks
 
-// Arguments: the folder of the graphs, and the names of those to run.
+// Arguments: the number of seeds, the folder of the graphs, and the names of those to run.
 int main(int argc, char** argv) {
   using namespace hmt;
-  for (int i = 2; i < argc; ++i) {
-    graph::G2oFile file = graph::read_g2o(std::string(argv[1]) + "/" + argv[i] + ".g2o");
+  using benchmarks::FalsePose;
+  const auto seeds = static_cast<unsigned>(argc > 1 ? std::atoi(argv[1]) : 1);
+  for (int i = 3; i < argc; ++i) {
+    graph::G2oFile file = graph::read_g2o(std::string(argv[2]) + "/" + argv[i] + ".g2o");
     graph::PoseOptimizerOptions options;
     options.initialization = graph::Initialization::best;
     file.graph.poses = optimize(file.graph, options).poses;
-    for (const int group_size : {1, 5})
-      for (const double share : {0.1, 0.3, 0.5})
-        benchmarks::run_case(argv[i], file.graph, share, group_size, 1);
+    for (unsigned seed = 1; seed <= seeds; ++seed)
+      for (const FalsePose kind : {FalsePose::anywhere, FalsePose::same_place})
+        for (const int group_size : {1, 5})
+          for (const double share : {0.1, 0.3, 0.5})
+            benchmarks::run_case(argv[i], file.graph, {share, group_size, kind, seed});
   }
   return 0;
 }

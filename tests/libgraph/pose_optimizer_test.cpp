@@ -270,6 +270,9 @@ TEST(ChiSquared, QuantilesMatchTheTables) {
   EXPECT_NEAR(chi_squared_quantile(3, 0.999), 16.266236, 1e-6);
   EXPECT_NEAR(chi_squared_quantile(6, 0.95), 12.591587, 1e-6);
   EXPECT_NEAR(chi_squared_survival(6, 22.457744), 0.001, 1e-9);
+  // Many degrees of freedom, where the distribution is nearly normal.
+  EXPECT_NEAR(chi_squared_quantile(1000000, 0.975), 1e6 + 1.95996 * std::sqrt(2e6), 3);
+  EXPECT_NEAR(chi_squared_survival(1000000, 1e6), 0.5, 1e-3);
 }
 
 }  // namespace
