@@ -12,22 +12,6 @@ namespace {
 constexpr int kAxisBits = 21;
 constexpr int kMiddle = 1 << (kAxisBits - 1);
 
-uint64_t key_of(const CellCoordinates& cell) {
-  uint64_t key = 0;
-  for (const int axis : cell) {
-    key =
-        (key << kAxisBits) | static_cast<uint64_t>(std::clamp(axis + kMiddle, 0, 2 * kMiddle - 1));
-  }
-  return key;
-}
-
-CellCoordinates coordinates_of(uint64_t key) {
-  const auto axis = [key](int shift) {
-    return static_cast<int>((key >> shift) & ((1U << kAxisBits) - 1)) - kMiddle;
-  };
-  return {axis(2 * kAxisBits), axis(kAxisBits), axis(0)};
-}
-
 CellCoordinates cell_at(const Eigen::Vector3f& p, float cell_m) {
   const auto axis = [cell_m](float x) {
     return static_cast<int>(std::clamp(std::floor(x / cell_m), -1.0F * kMiddle, 1.0F * kMiddle));
@@ -45,11 +29,27 @@ float square_gap(int dx, int dy, int dz, float cell_m) {
 
 }  // namespace
 
+uint64_t cell_key(const CellCoordinates& cell) {
+  uint64_t key = 0;
+  for (const int axis : cell) {
+    key =
+        (key << kAxisBits) | static_cast<uint64_t>(std::clamp(axis + kMiddle, 0, 2 * kMiddle - 1));
+  }
+  return key;
+}
+
+CellCoordinates cell_coordinates(uint64_t key) {
+  const auto axis = [key](int shift) {
+    return static_cast<int>((key >> shift) & ((1U << kAxisBits) - 1)) - kMiddle;
+  };
+  return {axis(2 * kAxisBits), axis(kAxisBits), axis(0)};
+}
+
 std::vector<CellCount> count_cells(std::span<const SensedPoint> points, float cell_m) {
   std::vector<CellCount> all;
   all.reserve(points.size());
   for (const SensedPoint& p : points)
-    all.push_back({key_of(cell_at(p.position, cell_m)), 1, p.gate});
+    all.push_back({cell_key(cell_at(p.position, cell_m)), 1, p.gate});
   std::sort(all.begin(), all.end(),
             [](const CellCount& a, const CellCount& b) { return a.cell < b.cell; });
   std::vector<CellCount> cells;
@@ -98,7 +98,7 @@ void CellIndex::find_near(double pose_gate_m2) {
   for (Cell& cell : cells_) {
     const float reach = std::sqrt(2 * cell.gate + static_cast<float>(pose_gate_m2));
     const int steps = 1 + static_cast<int>(std::floor(reach / cell_m_));
-    const auto [x, y, z] = coordinates_of(cell.key);
+    const auto [x, y, z] = cell_coordinates(cell.key);
     for (int dx = -steps; dx <= steps; ++dx) {
       for (int dy = -steps; dy <= steps; ++dy) {
         link_column(cell, {x + dx, y + dy, z - steps}, {x + dx, y + dy, z + steps}, pose_gate_m2);
@@ -110,13 +110,13 @@ void CellIndex::find_near(double pose_gate_m2) {
 
 void CellIndex::link_column(Cell& cell, const CellCoordinates& first, const CellCoordinates& last,
                             double pose_gate_m2) {
-  const auto [x, y, z] = coordinates_of(cell.key);
-  const uint64_t last_key = key_of(last);
-  auto other = std::lower_bound(cells_.begin(), cells_.end(), key_of(first),
+  const auto [x, y, z] = cell_coordinates(cell.key);
+  const uint64_t last_key = cell_key(last);
+  auto other = std::lower_bound(cells_.begin(), cells_.end(), cell_key(first),
                                 [](const Cell& c, uint64_t key) { return c.key < key; });
   for (; other != cells_.end() && other->key <= last_key; ++other) {
     if (other->gate > cell.gate) continue;
-    const auto [ox, oy, oz] = coordinates_of(other->key);
+    const auto [ox, oy, oz] = cell_coordinates(other->key);
     const float reach = cell.gate + other->gate + static_cast<float>(pose_gate_m2);
     if (square_gap(x - ox, y - oy, z - oz, cell_m_) > reach) continue;
     cell.near.insert(cell.near.end(), other->inside.begin(), other->inside.end());

@@ -15,6 +15,10 @@ namespace hmt::submap {
 /// Number of a cell along x, y and z.
 using CellCoordinates = std::array<int, 3>;
 
+/// One number for a cell, and back; cells farther out than 2^20 count as those at the border.
+uint64_t cell_key(const CellCoordinates& cell);
+CellCoordinates cell_coordinates(uint64_t key);
+
 /// The points of a reading in one coarse cell of the common frame.
 struct CellCount {
   uint64_t cell = 0;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common_share.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -29,9 +30,10 @@ void check_finite(const Pose& pose) {
   }
 }
 
-double sensed_space_overlap(int size_a, int size_b, const Matches& matches) {
-  if (size_a == 0 || size_b == 0) return 0;
-  const double common = 0.5 * (matches.of_a + matches.of_b);
+double sensed_space_overlap(double size_a, double size_b, const Matches& matches) {
+  if (size_a <= 0 || size_b <= 0) return 0;
+  // Upper bounds of matches may exceed a size that is no whole number.
+  const double common = 0.5 * (std::min(matches.of_a, size_a) + std::min(matches.of_b, size_b));
   return common / (size_a + size_b - common);
 }
 

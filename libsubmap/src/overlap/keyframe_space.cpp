@@ -3,8 +3,28 @@
 #include "keyframe_space.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace hmt::submap {
+
+std::vector<SensorUse> sensors_of(std::span<const std::vector<Sight>> keyframes) {
+  struct Total {
+    double points = 0;
+    double readings = 0;
+  };
+  std::map<Sensor, Total> totals;
+  for (const auto& sights : keyframes) {
+    for (const auto& [sensor, points] : sights) {
+      totals[sensor].points += static_cast<double>(points);
+      totals[sensor].readings += 1;
+    }
+  }
+  std::vector<SensorUse> sensors;
+  for (const auto& [sensor, total] : totals) {
+    sensors.push_back({sensor, total.points > kMaxExactPoints * total.readings});
+  }
+  return sensors;
+}
 
 Pose KeyframeSpaceSource::T_frame_keyframe(int keyframe) const {
   Pose T = T_world_keyframe_[static_cast<size_t>(keyframe)];
@@ -12,32 +32,41 @@ Pose KeyframeSpaceSource::T_frame_keyframe(int keyframe) const {
   return T;
 }
 
-std::vector<Sensor> KeyframeSpaceSource::sensors(int keyframe) const {
-  std::vector<Sensor> sensors;
+std::vector<Sight> KeyframeSpaceSource::sights(int keyframe) const {
+  std::vector<Sight> sights;
   const auto observation =
       observations_.load(keyframes_[static_cast<size_t>(keyframe)].observation);
-  for (const Reading& r : observation->readings) sensors.push_back({SensorKind::range, r.sensor});
-  for (const LandmarkReading& r : observation->landmark_readings) {
-    sensors.push_back({SensorKind::landmarks, r.sensor});
+  for (const Reading& r : observation->readings) {
+    sights.push_back({{SensorKind::range, r.sensor}, r.points_sensor.size()});
   }
-  return sensors;
+  for (const LandmarkReading& r : observation->landmark_readings) {
+    sights.push_back({{SensorKind::landmarks, r.sensor}, 0});
+  }
+  return sights;
 }
 
-KeyframeSpace KeyframeSpaceSource::space(int keyframe, std::span<const Sensor> sensors) const {
+KeyframeSpace KeyframeSpaceSource::space(int keyframe, std::span<const SensorUse> sensors) const {
   const auto observation =
       observations_.load(keyframes_[static_cast<size_t>(keyframe)].observation);
   const Pose T = T_frame_keyframe(keyframe);
   KeyframeSpace space(sensors.size());
-  const auto slot = [&](const Sensor& sensor) -> SensedReading& {
-    const auto found = std::lower_bound(sensors.begin(), sensors.end(), sensor);
-    return space[static_cast<size_t>(found - sensors.begin())];
+  const auto slot_of = [&](const Sensor& sensor) {
+    const auto found = std::lower_bound(
+        sensors.begin(), sensors.end(), sensor,
+        [](const SensorUse& use, const Sensor& wanted) { return use.sensor < wanted; });
+    return static_cast<size_t>(found - sensors.begin());
   };
   for (const Reading& reading : observation->readings) {
-    SensedReading& sensed = slot({SensorKind::range, reading.sensor});
-    if (sensed.index() == 0) sensed.emplace<SensedPoints>(reading, T, options_.max_mahalanobis);
+    const size_t slot = slot_of({SensorKind::range, reading.sensor});
+    if (space[slot].index() != 0) continue;
+    if (sensors[slot].by_voxels) {
+      space[slot].emplace<SensedVoxels>(reading, T);
+    } else {
+      space[slot].emplace<SensedPoints>(reading, T, options_.max_mahalanobis);
+    }
   }
   for (const LandmarkReading& reading : observation->landmark_readings) {
-    SensedReading& sensed = slot({SensorKind::landmarks, reading.sensor});
+    SensedReading& sensed = space[slot_of({SensorKind::landmarks, reading.sensor})];
     if (sensed.index() == 0) sensed.emplace<SensedLandmarks>(reading, T, options_);
   }
   return space;

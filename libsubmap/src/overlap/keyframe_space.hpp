@@ -11,6 +11,7 @@
 #include "hmt/submap/overlap/overlap.hpp"
 #include "sensed_landmarks.hpp"
 #include "sensed_points.hpp"
+#include "sensed_voxels.hpp"
 
 namespace hmt::submap {
 
@@ -24,8 +25,24 @@ struct Sensor {
   auto operator<=>(const Sensor&) const = default;
 };
 
+/// A sensor that a keyframe has a reading of, and the points in it.
+struct Sight {
+  Sensor sensor;
+  size_t points = 0;
+};
+
+/// A sensor of the log and what its readings are compared by.
+struct SensorUse {
+  Sensor sensor;
+  bool by_voxels = false;  ///< a range sensor of large clouds
+};
+
+/// All sensors of the log, sorted, from those of each keyframe. Range sensors with more than
+/// kMaxExactPoints a reading on average are compared by voxels.
+std::vector<SensorUse> sensors_of(std::span<const std::vector<Sight>> keyframes);
+
 /// What one sensor sensed at a keyframe; nothing where it has no reading.
-using SensedReading = std::variant<std::monostate, SensedPoints, SensedLandmarks>;
+using SensedReading = std::variant<std::monostate, SensedPoints, SensedVoxels, SensedLandmarks>;
 /// One for each sensor of the log.
 using KeyframeSpace = std::vector<SensedReading>;
 
@@ -42,10 +59,10 @@ class KeyframeSpaceSource {
   int num_keyframes() const { return static_cast<int>(keyframes_.size()); }
   /// Points are held as floats, so the common frame is the world moved to the first keyframe.
   Pose T_frame_keyframe(int keyframe) const;
-  /// The sensors that a keyframe has readings of, in its own order.
-  std::vector<Sensor> sensors(int keyframe) const;
+  /// All of the keyframe, in its own order.
+  std::vector<Sight> sights(int keyframe) const;
   /// Of several readings of one sensor the first counts. `sensors`: all of the log, sorted.
-  KeyframeSpace space(int keyframe, std::span<const Sensor> sensors) const;
+  KeyframeSpace space(int keyframe, std::span<const SensorUse> sensors) const;
 
  private:
   std::span<const Keyframe> keyframes_;

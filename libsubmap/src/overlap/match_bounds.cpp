@@ -35,8 +35,24 @@ void BoundSum::add(std::span<const ReadingRun> runs, int elements) {
   }
 }
 
+void BoundSum::sort_steps() {
+  if (steps_.size() < num_readings_) {
+    std::sort(steps_.begin(), steps_.end(),
+              [](const Step& a, const Step& b) { return a.at < b.at; });
+    return;
+  }
+  // Many steps at few places.
+  std::vector<int> changes(num_readings_ + 1, 0);
+  for (const Step& step : steps_) changes[static_cast<size_t>(step.at)] += step.change;
+  steps_.clear();
+  for (int at = 0; at <= static_cast<int>(num_readings_); ++at) {
+    const int change = changes[static_cast<size_t>(at)];
+    if (change != 0) steps_.push_back({at, change});
+  }
+}
+
 std::vector<MatchBound> BoundSum::bounds(int most) && {
-  std::sort(steps_.begin(), steps_.end(), [](const Step& a, const Step& b) { return a.at < b.at; });
+  sort_steps();
   std::vector<MatchBound> bounds;
   int matches = 0;
   for (size_t i = 0; i < steps_.size(); ++i) {

@@ -29,6 +29,8 @@ struct MatchBound {
 /// Adds up, for all readings at once, how many elements can match.
 class BoundSum {
  public:
+  /// Of so many readings.
+  explicit BoundSum(size_t num_readings) : num_readings_(num_readings) {}
   /// So many elements can match something in each of the runs.
   void add(std::span<const ReadingRun> runs, int elements);
   /// The sums: disjoint, by increasing number; readings that cannot match are left out. No more
@@ -40,6 +42,9 @@ class BoundSum {
     int at;
     int change;
   };
+  void sort_steps();
+
+  size_t num_readings_ = 0;
   std::vector<Step> steps_;
 };
 

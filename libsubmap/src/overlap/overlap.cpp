@@ -10,6 +10,7 @@
 #include "match_landmarks.hpp"
 #include "sensed_landmarks.hpp"
 #include "sensed_points.hpp"
+#include "sensed_voxels.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -17,31 +18,52 @@ namespace {
 /// What is known of two observations besides their readings.
 struct Relation {
   Pose T_a_b;
+  Matrix6d covariance_a_b;
   PoseSpread spread;
   const OverlapOptions& options;
 
-  Relation(const Pose& T_robota_robotb, const Matrix6d& covariance_a_b,
+  Relation(const Pose& T_robota_robotb, const Matrix6d& covariance,
            const OverlapOptions& overlap_options)
-      : T_a_b(T_robota_robotb), spread(T_robota_robotb, covariance_a_b), options(overlap_options) {
+      : T_a_b(T_robota_robotb),
+        covariance_a_b(covariance),
+        spread(T_robota_robotb, covariance),
+        options(overlap_options) {
     check(options);
     check_finite(T_a_b);
   }
 };
 
+/// By voxels that are laid out in the frame of a.
+double voxel_overlap(const Reading& a, const Reading& b, const Relation& relation) {
+  const SensedVoxels voxels_a(a, Pose{}), voxels_b(b, relation.T_a_b);
+  const double common = common_voxels(voxels_a, voxels_b, relation.spread, relation.options);
+  return sensed_space_overlap(voxels_a.size(), voxels_b.size(), {common, common});
+}
+
 void add_overlap(const Reading& a, const Reading& b, const Relation& relation, MeanOverlap& mean) {
+  const auto points = static_cast<double>(a.points_sensor.size() + b.points_sensor.size());
+  if (points / 2 > kMaxExactPoints) {
+    // Laid out in the frame of either, so that none comes first.
+    const Relation back(relation.T_a_b.inverse(),
+                        graph::inverse_covariance(relation.T_a_b, relation.covariance_a_b),
+                        relation.options);
+    mean.add((voxel_overlap(a, b, relation) + voxel_overlap(b, a, back)) / 2);
+    return;
+  }
   const OverlapOptions& options = relation.options;
   const SensedPoints points_a(a, Pose{}, options.max_mahalanobis);
   const SensedPoints points_b(b, relation.T_a_b, options.max_mahalanobis);
   mean.add(points_a.size(), points_b.size(),
-           {count_matches(points_a, points_b, relation.spread, options),
-            count_matches(points_b, points_a, relation.spread, options)});
+           {1.0 * count_matches(points_a, points_b, relation.spread, options),
+            1.0 * count_matches(points_b, points_a, relation.spread, options)});
 }
 
 void add_overlap(const LandmarkReading& a, const LandmarkReading& b, const Relation& relation,
                  MeanOverlap& mean) {
   const SensedLandmarks landmarks_a(a, Pose{}, relation.options);
   const SensedLandmarks landmarks_b(b, relation.T_a_b, relation.options);
-  const int matches = match_landmarks(landmarks_a, landmarks_b, relation.spread, relation.options);
+  const double matches =
+      match_landmarks(landmarks_a, landmarks_b, relation.spread, relation.options);
   mean.add(landmarks_a.size(), landmarks_b.size(), {matches, matches});
 }
 

@@ -26,7 +26,7 @@ size_t at(int i) {
 // points of the log: some 100 MB for the points and 100 MB for the pairs by these limits. Larger
 // blocks would prepare keyframes less often.
 constexpr int kBlockKeyframes = 1024;
-constexpr int64_t kBlockPoints = 1'000'000;
+constexpr double kBlockPoints = 1e6;
 
 struct Block {
   int begin = 0;
@@ -84,10 +84,10 @@ class OverlapGraphBuilder {
 
   std::vector<Block> blocks() const {
     std::vector<Block> blocks;
-    int64_t points = 0;
+    double points = 0;
     for (int keyframe = 0; keyframe < num_keyframes(); ++keyframe) {
-      int64_t own = 0;
-      for (const SensorIndex& index : index_) own += index.size(keyframe).value_or(0);
+      double own = 0;
+      for (const SensorIndex& index : index_) own += index.memory(keyframe);
       points += own;
       if (blocks.empty() || blocks.back().size() == kBlockKeyframes || points > kBlockPoints) {
         blocks.push_back({keyframe, keyframe});
@@ -106,12 +106,9 @@ class OverlapGraphBuilder {
   }
 
   void find_sensors() {
-    std::vector<std::vector<Sensor>> found(at(num_keyframes()));
-    parallel(num_keyframes(), [&](int i) { found[at(i)] = source_.sensors(i); });
-    for (const auto& sensors : found)
-      sensors_.insert(sensors_.end(), sensors.begin(), sensors.end());
-    std::sort(sensors_.begin(), sensors_.end());
-    sensors_.erase(std::unique(sensors_.begin(), sensors_.end()), sensors_.end());
+    std::vector<std::vector<Sight>> sights(at(num_keyframes()));
+    parallel(num_keyframes(), [&](int i) { sights[at(i)] = source_.sights(i); });
+    sensors_ = sensors_of(sights);
   }
 
   void index_sensors() {
@@ -137,7 +134,7 @@ class OverlapGraphBuilder {
   double mean_overlap(int a, int b, const MatchesOfSensor& matches) const {
     MeanOverlap overlap;
     for (size_t s = 0; s < sensors_.size(); ++s) {
-      const std::optional<int> size_a = index_[s].size(a), size_b = index_[s].size(b);
+      const std::optional<double> size_a = index_[s].size(a), size_b = index_[s].size(b);
       if (size_a && size_b) overlap.add(*size_a, *size_b, matches(s));
     }
     return overlap.mean();
@@ -195,7 +192,7 @@ class OverlapGraphBuilder {
         const double bound = mean_overlap(i, j, [&](size_t s) {
           const size_t row_a = (at(i - a.begin) * sensors_.size() + s) * at(b.size());
           const size_t row_b = (at(j - b.begin) * sensors_.size() + s) * at(a.size());
-          return Matches{of_a[row_a + at(j - b.begin)], of_b[row_b + at(i - a.begin)]};
+          return Matches{1.0 * of_a[row_a + at(j - b.begin)], 1.0 * of_b[row_b + at(i - a.begin)]};
         });
         if (is_arc(bound)) pairs.push_back({i, j, {}});
       }
@@ -234,7 +231,7 @@ class OverlapGraphBuilder {
   /// once. queries_of(p): the points of the other keyframe of pair p.
   template <typename QueriesOf>
   void count(const std::vector<Pair>& pairs, const std::vector<size_t>& own_pairs,
-             const QueriesOf& queries_of, const KeyframeSpace& targets, int Matches::*result,
+             const QueriesOf& queries_of, const KeyframeSpace& targets, double Matches::*result,
              std::vector<Matches>& matches) {
     if (own_pairs.empty()) return;
     std::vector<NearestGrid>& grids = grids_.local();
@@ -253,11 +250,14 @@ class OverlapGraphBuilder {
   }
 
   /// Number of elements of the queries that match one of the targets.
-  int count(const SensedReading& queries, const SensedReading& targets, const PoseSpread& spread,
-            const NearestGrid& grid) const {
+  double count(const SensedReading& queries, const SensedReading& targets, const PoseSpread& spread,
+               const NearestGrid& grid) const {
     if (queries.index() != targets.index()) return 0;
     if (const auto* points = std::get_if<SensedPoints>(&queries)) {
       return count_matches(*points, std::get<SensedPoints>(targets), spread, options_, &grid);
+    }
+    if (const auto* voxels = std::get_if<SensedVoxels>(&queries)) {
+      return common_voxels(*voxels, std::get<SensedVoxels>(targets), spread, options_);
     }
     if (const auto* landmarks = std::get_if<SensedLandmarks>(&queries)) {
       return match_landmarks(*landmarks, std::get<SensedLandmarks>(targets), spread, options_);
@@ -271,7 +271,7 @@ class OverlapGraphBuilder {
   const Run& run_;
   tbb::task_arena arena_;
   tbb::enumerable_thread_specific<std::vector<NearestGrid>> grids_;  ///< one a sensor
-  std::vector<Sensor> sensors_;                                      ///< sorted
+  std::vector<SensorUse> sensors_;                                   ///< sorted
   std::vector<SensorIndex> index_;                                   ///< one a sensor
 };
 

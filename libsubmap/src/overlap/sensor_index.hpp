@@ -16,8 +16,10 @@ class SensorIndex {
  public:
   /// What the index needs of the reading of one keyframe.
   struct Entry {
-    std::optional<int> size;  ///< number of its elements; nothing where there is no reading
-    std::vector<CellCount> cells;
+    std::optional<double> size;     ///< number of its elements; nothing without a reading
+    double memory = 0;              ///< of the reading when prepared, in points of a scan
+    std::vector<CellCount> cells;   ///< of points
+    std::vector<CellCount> blocks;  ///< of voxels
     std::vector<LandmarkPlace> landmarks;
   };
   static Entry entry(const SensedReading& reading, const OverlapOptions& options);
@@ -25,15 +27,18 @@ class SensorIndex {
   /// One entry for each keyframe.
   SensorIndex(std::vector<Entry> entries, const OverlapOptions& options);
 
-  /// Number of points or landmarks of the keyframe's reading; nothing where it has none.
-  std::optional<int> size(int keyframe) const { return sizes_[static_cast<size_t>(keyframe)]; }
+  /// Number of elements of the keyframe's reading; nothing where it has none.
+  std::optional<double> size(int keyframe) const { return sizes_[static_cast<size_t>(keyframe)]; }
+  double memory(int keyframe) const { return memory_[static_cast<size_t>(keyframe)]; }
   /// How many of the elements of the keyframe can match one of each other keyframe, at most;
   /// keyframes that cannot match are left out.
   std::vector<MatchBound> bounds(int keyframe) const;
 
  private:
-  std::vector<std::optional<int>> sizes_;
+  std::vector<std::optional<double>> sizes_;
+  std::vector<double> memory_;
   CellIndex points_;
+  std::optional<VoxelIndex> voxels_;
   std::optional<LandmarkIndex> landmarks_;
 };
 

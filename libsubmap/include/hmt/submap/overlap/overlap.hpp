@@ -27,7 +27,9 @@ struct OverlapOptions {
 
 /// Sensed Space Overlap of two readings of range sensors [Blanco 2009, Eq. 13, 15, 16], made
 /// symmetric: matches are counted in both directions and averaged; union = |a| + |b| - matches. In
-/// [0, 1]; 1 for a reading with itself at the identity; 0 if one is empty.
+/// [0, 1]; 1 for a reading with itself at the identity; 0 if one is empty. Large clouds, of more
+/// than 8192 points on average, are compared by the voxels of 0.5 m that they occupy [footnote 3],
+/// whole or in part, the voxels laid out in the frame of either and the two results averaged.
 /// `covariance_a_b`: of T_robota_robotb, tangent of Pose (frame b).
 double reading_overlap(const Reading& a, const Reading& b, const Pose& T_robota_robotb,
                        const Matrix6d& covariance_a_b, const OverlapOptions& options);
@@ -51,7 +53,9 @@ double observation_overlap(const Observation& a, const Observation& b, const Pos
 
 /// Omega: the overlap of all pairs of keyframes whose sensed regions meet at the given poses and
 /// whose relative pose is known well enough to tell. Never looks at the points of all n^2 pairs.
-/// Weights equal observation_overlap up to the rounding of points and covariances to float. Same
+/// Weights equal observation_overlap up to the rounding of points and covariances to float; a
+/// sensor whose readings have more than 8192 points on average is compared by voxels throughout,
+/// which are laid out in the world, so its weights differ by some hundredths with the layout. Same
 /// result for any number of threads. `covariance` is asked with a < b, once a pair, from several
 /// threads at once; no arc where it has none. Throws InputError for options out of range, numbers
 /// that are not finite and a number of poses that is not that of the keyframes; Interrupted where
