@@ -131,6 +131,18 @@ TEST_F(RecordingFile, CutMcapFilesGiveTheirFirstMessages) {
       mcap_file(samples(), {"lz4", 7}), [&](auto bytes) { return read_bytes(bytes); }, 9);
 }
 
+TEST_F(RecordingFile, CutSqliteBagsGiveTheirFirstMessages) {
+  auto all = samples();
+  for (auto& message : all) message.bytes.resize(2000, ' ');
+  test::write_sqlite_bag(path(), all);
+  std::filesystem::resize_file(path(), std::filesystem::file_size(path()) / 2);
+  const Contents contents = read(path());
+  EXPECT_GT(contents.data.size(), 5u);
+  EXPECT_LT(contents.data.size(), 40u);
+  for (size_t k = 0; k < contents.data.size(); ++k) EXPECT_EQ(contents.data[k], all[k].bytes);
+  EXPECT_FALSE(contents.report.losses.empty());
+}
+
 TEST_F(RecordingFile, ADamagedChunkCostsNoOther) {
   std::string bag = ros1_bag(samples(), {"bz2", 10});
   bag[bag.find("BZh", bag.find("BZh") + 3) + 60] ^= 0x55;  // in the second chunk

@@ -66,7 +66,9 @@ SqliteBag::Database SqliteBag::open() const {
     if (result != SQLITE_OK) continue;
     sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, kMaxMessageBytes);
     sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-    sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    // Otherwise SQLite refuses a file that is shorter than its header tells, whole as it may be up
+    // to there. Nothing can be written all the same.
+    sqlite3_db_config(handle, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
     if (sqlite3_exec(handle, "SELECT count(*) FROM sqlite_schema", nullptr, nullptr, nullptr) ==
         SQLITE_OK)
       return database;
