@@ -186,13 +186,17 @@ void add_table_options(CLI::App& command, PartitionArguments& arguments) {
       command.add_flag("--sweep-tau", arguments.sweep_tau,
                        "Print groups, sizes, k-way Ncut and, of a map, information loss for "
                        "tau = 0.05, 0.10, .. 1.50");
+  for (const char* fixed : {"--tau", "--groups", "--max-loss", "--method", "--every"})
+    sweep->excludes(command.get_option(fixed));
   command.add_option("--csv", arguments.csv_file, "Write the table of --sweep-tau to this file")
       ->needs(sweep);
   command
       .add_flag("--compare", arguments.compare,
                 "Print all methods side by side, at the number of groups of ncut")
       ->excludes(sweep)
-      ->excludes("--max-loss");
+      ->excludes("--max-loss")
+      ->excludes("--method")
+      ->excludes("--every");
 }
 
 }  // namespace

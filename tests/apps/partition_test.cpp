@@ -91,8 +91,13 @@ TEST_F(PartitionCommand, RefusesOfAMatrixWhatItCannotKnow) {
     EXPECT_EQ(result.code, 1) << option;
     EXPECT_THAT(result.err, HasSubstr("error: ")) << option;
   }
-  EXPECT_EQ(run_hmtmap("partition " + omega_ + " --max-loss 0.1 --tau 0.5").code, 2);
-  EXPECT_EQ(run_hmtmap("partition " + omega_ + " --method fixed --every 2 --groups 2").code, 2);
+}
+
+TEST_F(PartitionCommand, RefusesOptionsThatContradictEachOther) {
+  for (const char* options :
+       {"--max-loss 0.1 --tau 0.5", "--method fixed --every 2 --groups 2", "--sweep-tau --tau 0.5",
+        "--sweep-tau --compare", "--compare --method metis"})
+    EXPECT_EQ(run_hmtmap("partition " + omega_ + " " + options).code, 2) << options;
 }
 
 TEST_F(PartitionCommand, CutsEverySoManyNodes) {
