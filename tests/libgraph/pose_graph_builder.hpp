@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <random>
 
 #include "hmt/graph/pose_graph.hpp"
@@ -53,6 +54,39 @@ inline PoseGraph noisy_graph(Space space, int num_nodes, int stride, double nois
   graph.poses.push_back(truth[0]);
   for (int i = 0; i + 1 < num_nodes; ++i)
     graph.poses.push_back(graph.poses.back() * graph.edges[static_cast<size_t>(i)].T_from_to);
+  return graph;
+}
+
+/// A drive around a sphere of 10 m in `rings` turns of `per_ring` poses, each joined to the one
+/// below it; noise in metres and radians. The poses are those of the noisy chain.
+inline PoseGraph noisy_sphere(int rings, int per_ring, double noise, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal(0, noise);
+  const int count = rings * per_ring;
+  std::vector<Pose> truth;
+  for (int i = 0; i < count; ++i) {
+    const double azimuth = 2 * 3.14159265358979 * i / per_ring;
+    const double elevation = 1.4 * (2.0 * i / count - 1);
+    const Eigen::Vector3d ahead(-std::sin(azimuth), std::cos(azimuth), 0);
+    const Eigen::Vector3d up(std::cos(elevation) * std::cos(azimuth),
+                             std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+    Eigen::Matrix3d R;
+    R << ahead, up.cross(ahead), up;
+    truth.push_back({10 * up, Eigen::Quaterniond(R)});
+  }
+  PoseGraph graph;
+  graph.space = Space::se3;
+  const auto measure = [&](int a, int b) {
+    Vector6d step;
+    for (double& value : step) value = normal(generator);
+    const Pose T = relative_pose(truth[static_cast<size_t>(a)], truth[static_cast<size_t>(b)]);
+    graph.edges.push_back(edge(a, b, boxplus(T, step), 1 / (noise * noise)));
+  };
+  for (int i = 1; i < count; ++i) measure(i - 1, i);
+  for (int i = per_ring; i < count; ++i) measure(i - per_ring, i);
+  graph.poses.push_back(truth[0]);
+  for (int i = 1; i < count; ++i)
+    graph.poses.push_back(graph.poses.back() * graph.edges[static_cast<size_t>(i) - 1].T_from_to);
   return graph;
 }
 

@@ -200,6 +200,21 @@ TEST(PoseOptimizer, DampsItsStepsWhereAFullOneGoesTooFar) {
   EXPECT_EQ(optimize(graph, one_step).report.termination, Termination::iteration_limit);
 }
 
+// Noise of 0.15 m and rad a step, where the file's own guess is meaningless.
+TEST(PoseOptimizer, NoFurtherStartBeatsTheFirstOnANoisySphere) {
+  PoseOptimizerOptions options;
+  options.initialization = Initialization::best;
+  options.restarts = 5;
+  for (const unsigned seed : {1U, 2U}) {
+    const PoseOptimizerReport report =
+        optimize(test::noisy_sphere(8, 14, 0.15, seed), options).report;
+    ASSERT_EQ(report.starts.size(), 6U);
+    EXPECT_NEAR(report.starts[0].cost, report.cost, 1e-6 * report.cost);
+    // Of 540 degrees of freedom: 3 standard deviations.
+    EXPECT_NEAR(report.chi2, report.degrees_of_freedom, 3 * std::sqrt(2 * 540.0));
+  }
+}
+
 TEST(PoseOptimizer, GivesTheSameBytesForAnyNumberOfThreads) {
   for (const Space space : {Space::se2, Space::se3}) {
     const PoseGraph graph = noisy_graph(space, 300, 7, 0.02, 1);
