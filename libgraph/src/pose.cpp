@@ -7,15 +7,6 @@
 #include <ostream>
 
 namespace hmt::graph {
-namespace {
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-}  // namespace
 
 Pose Pose::planar(double x_m, double y_m, double yaw_rad) {
   return {{x_m, y_m, 0.0}, {std::cos(yaw_rad / 2), 0.0, 0.0, std::sin(yaw_rad / 2)}};
@@ -88,6 +79,12 @@ Matrix6d compose_covariance(const Pose& T_b_c, const Matrix6d& covariance_a_b,
 Matrix6d inverse_covariance(const Pose& T_a_b, const Matrix6d& covariance_a_b) {
   const Matrix6d Ad = adjoint(T_a_b);
   return Ad * covariance_a_b * Ad.transpose();
+}
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
 }
 
 double wrap_angle(double angle_rad) {

@@ -18,12 +18,6 @@ constexpr std::array<int, Chart::kTangent> tangent_rows() {
     return {0, 1, 2, 3, 4, 5};
 }
 
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 /// W with W^T W = information. The Cholesky factor where there is one; a singular matrix goes by
 /// its eigenvectors, where rounding below zero counts as zero.
 template <class Matrix>

@@ -54,6 +54,11 @@ TEST(Pose, ComposedCovarianceMatchesNumericalJacobian) {
   EXPECT_TRUE(compose_covariance(T_b_c, covariance, Matrix6d::Zero()).isApprox(expected, 1e-5));
 }
 
+TEST(Skew, IsTheCrossProduct) {
+  const Eigen::Vector3d v(1, -2, 3), w(0.5, 4, -1);
+  EXPECT_TRUE((skew(v) * w).isApprox(v.cross(w)));
+}
+
 TEST(WrapAngle, MapsPlusAndMinusPiToPi) {
   EXPECT_DOUBLE_EQ(wrap_angle(-std::numbers::pi), std::numbers::pi);
   EXPECT_DOUBLE_EQ(wrap_angle(3 * std::numbers::pi), std::numbers::pi);

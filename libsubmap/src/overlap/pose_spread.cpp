@@ -7,15 +7,6 @@
 #include "hmt/graph/input_error.hpp"
 
 namespace hmt::submap {
-namespace {
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-}  // namespace
 
 PoseSpread::PoseSpread(const graph::Pose& T_frame_b, const graph::Matrix6d& covariance_a_b)
     : origin_(T_frame_b.translation) {
@@ -56,7 +47,7 @@ PoseSpread::Floor PoseSpread::least_covariance() const {
 }
 
 Eigen::Matrix3d PoseSpread::covariance(const Eigen::Vector3d& x) const {
-  const Eigen::Matrix3d d = skew(x - origin_);
+  const Eigen::Matrix3d d = graph::skew(x - origin_);
   const Eigen::Matrix3d cross = tr_ * d;
   return tt_ + cross + cross.transpose() - d * rr_ * d;
 }

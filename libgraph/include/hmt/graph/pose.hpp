@@ -65,6 +65,9 @@ Matrix6d compose_covariance(const Pose& T_b_c, const Matrix6d& covariance_a_b,
 /// Covariance of T_b_a = T_a_b^-1 to first order.
 Matrix6d inverse_covariance(const Pose& T_a_b, const Matrix6d& covariance_a_b);
 
+/// The matrix of the cross product: skew(v) * w = v x w.
+Eigen::Matrix3d skew(const Eigen::Vector3d& v);
+
 /// Angle in (-pi, pi] that equals `angle_rad` modulo 2 pi.
 double wrap_angle(double angle_rad);
 
