@@ -7,6 +7,7 @@
 // One function a command, each in the .cpp of its name; the table is in main.cpp.
 namespace hmt::apps {
 
+Action add_loops(CLI::App& command);
 Action add_map(CLI::App& command);
 Action add_export(CLI::App& command);
 Action add_check(CLI::App& command);

@@ -4,10 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <numbers>
+#include <set>
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "hmt/graph/input_error.hpp"
 #include "hmt/submap/export/evaluation.hpp"
+#include "hmt/submap/export/map_quality.hpp"
+#include "hmt/submap/map/map_file.hpp"
 #include "trajectory_input.hpp"
 
 namespace hmt::apps {
@@ -19,6 +23,7 @@ struct Arguments {
   std::string trajectory;
   std::string relations;
   std::string reference;
+  bool map_quality = false;
 };
 
 void add_relations(const submap::RelationsError& error, nlohmann::ordered_json& json,
@@ -56,6 +61,45 @@ void add_reference(const submap::TrajectoryError& error, nlohmann::ordered_json&
       error.rpe_trans_rmse_m, error.rpe_rot_rmse_rad * kDegPerRad, submap::kRpePath);
 }
 
+nlohmann::ordered_json to_json(const submap::MapQuality& quality) {
+  return {{"scans", quality.scans},
+          {"beams", quality.beams},
+          {"occupied_cells", quality.occupied_cells},
+          {"cells_per_1000_beams", quality.cells_per_1000_beams},
+          {"mean_wall_thickness_m", quality.mean_wall_thickness_m},
+          {"wall_patches", quality.wall_patches}};
+}
+
+std::string to_text(const char* of, const submap::MapQuality& quality) {
+  return fmt::format("{:<13}walls {:.4f} m thick, {:.2f} cells of 5 cm per 1000 beams ({} scans)\n",
+                     of, quality.mean_wall_thickness_m, quality.cells_per_1000_beams,
+                     quality.scans);
+}
+
+/// Of the map, and of the same scans at the poses of the reference if there is one.
+void add_map_quality(const Arguments& arguments, nlohmann::ordered_json& json, std::string& text) {
+  if (!is_map_file(arguments.trajectory))
+    throw graph::InputError(arguments.trajectory +
+                            ": --map-quality needs a map, which has the scans");
+  const submap::MapFile file = submap::MapFile::open(arguments.trajectory);
+  const submap::HybridMap map = file.load_map();
+  std::vector<submap::PosedObservation> own =
+      submap::observations_along(map.track, submap::stamped_trajectory(map));
+  if (!arguments.reference.empty()) {
+    const auto reference =
+        submap::observations_along(map.track, submap::read_tum(arguments.reference));
+    std::set<int64_t> common;
+    for (const submap::PosedObservation& posed : reference) common.insert(posed.observation);
+    std::erase_if(own, [&](const auto& posed) { return !common.contains(posed.observation); });
+    const submap::MapQuality quality = submap::map_quality(file, reference);
+    json["reference_map_quality"] = to_json(quality);
+    text += to_text("by reference", quality);
+  }
+  const submap::MapQuality quality = submap::map_quality(file, own);
+  json["map_quality"] = to_json(quality);
+  text += to_text("by map", quality);
+}
+
 int evaluate(const Arguments& arguments, const Globals& globals) {
   const auto trajectory = load_trajectory(arguments.trajectory);
   nlohmann::ordered_json json;
@@ -68,6 +112,7 @@ int evaluate(const Arguments& arguments, const Globals& globals) {
   if (!arguments.reference.empty())
     add_reference(submap::evaluate_trajectory(trajectory, submap::read_tum(arguments.reference)),
                   json, text);
+  if (arguments.map_quality) add_map_quality(arguments, json, text);
   print_result(globals, json, text);
   return kDone;
 }
@@ -82,7 +127,10 @@ Action add_evaluate(CLI::App& command) {
   truth->add_option("--relations", arguments->relations,
                     "True relative poses: stamp1 stamp2 x y z roll pitch yaw [Kuemmerle 2009]");
   truth->add_option("--reference", arguments->reference, "Reference trajectory, a TUM file");
-  truth->require_option(1, 2);
+  truth->add_flag("--map-quality", arguments->map_quality,
+                  "How thick the walls of the map are and how many cells its beams fill; with "
+                  "--reference also what the same scans make at the reference's poses");
+  truth->require_option(1, 3);
   return [arguments](const Globals& globals) { return evaluate(*arguments, globals); };
 }
 

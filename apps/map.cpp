@@ -31,14 +31,17 @@ double seconds(const timeval& t) {
 
 nlohmann::ordered_json summary(const submap::HybridMap& map) {
   const auto accepted = [](const submap::LoopCandidate& c) {
-    return c.verdict == submap::LoopVerdict::accepted;
+    return submap::is_closure(c.verdict);
   };
   return {{"observations", map.track.observations.size()},
           {"keyframes", map.track.keyframes.size()},
           {"submaps", map.submaps.size()},
           {"links", map.links.size()},
           {"loop_closures", std::count_if(map.loops.begin(), map.loops.end(), accepted)},
-          {"information_loss", map.information_loss}};
+          {"information_loss", map.information_loss},
+          {"chi2_hybrid", map.division.chi2_hybrid},
+          {"chi2_refined", map.division.chi2_refined},
+          {"chi2_flat", map.division.chi2_flat}};
 }
 
 std::string as_text(const nlohmann::ordered_json& object, const std::filesystem::path& map) {

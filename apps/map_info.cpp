@@ -50,6 +50,9 @@ void add_map(const submap::HybridMap& map, Json& json) {
   json["information_loss"] = map.information_loss;
   json["chi2_initial"] = map.chi2_initial;
   json["chi2"] = map.chi2;
+  json["chi2_hybrid"] = map.division.chi2_hybrid;
+  json["chi2_refined"] = map.division.chi2_refined;
+  json["chi2_flat"] = map.division.chi2_flat;
   json["loop_candidates"] = submap::count_verdicts(map);
   json["submaps"] = submaps_json(map);
   json["links"] = links_json(map);
@@ -58,9 +61,11 @@ void add_map(const submap::HybridMap& map, Json& json) {
 std::string map_text(const submap::HybridMap& map) {
   std::string text = fmt::format(
       "observations       {}\nkeyframes          {}\nconstraints        {}\nsubmaps            {}\n"
-      "links              {}\ninformation loss   {:.4f}\n",
+      "links              {}\ninformation loss   {:.4f}\n"
+      "chi2               {:.3f} by submaps, {:.3f} refined together, {:.3f} flat\n",
       map.track.observations.size(), map.track.keyframes.size(), map.constraints.size(),
-      map.submaps.size(), map.links.size(), map.information_loss);
+      map.submaps.size(), map.links.size(), map.information_loss, map.division.chi2_hybrid,
+      map.division.chi2_refined, map.division.chi2_flat);
   for (const auto& [verdict, count] : submap::count_verdicts(map))
     text += fmt::format("loops {:<13}{}\n", verdict, count);
   text += "submap  keyframes  observations  first stamp      extent\n";

@@ -20,6 +20,7 @@
 #include "hmt/graph/pose_covariance.hpp"
 #include "hmt/graph/pose_optimizer.hpp"
 #include "hmt/graph/submap_optimizer.hpp"
+#include "optimize_submap.hpp"
 
 namespace hmt::apps {
 namespace {
@@ -37,6 +38,7 @@ struct OptimizeArguments {
   std::string verdicts;  ///< empty: none are written
   graph::PoseOptimizerOptions options;
   Method method = Method::flat;
+  int submap = -1;  ///< >= 0: the input is a map, and this submap alone is optimized
   bool force = false;
 };
 
@@ -263,6 +265,7 @@ std::string to_text(const graph::G2oFile& file, const graph::PoseOptimizerReport
 }
 
 int run_optimize(const OptimizeArguments& arguments, const Globals& globals) {
+  if (arguments.submap >= 0) return optimize_one_submap(arguments.input, arguments.submap, globals);
   const Clock::time_point begin = Clock::now();
   refuse_to_overwrite(arguments);
   const submap::Run run = make_run(globals);
@@ -305,8 +308,14 @@ Action add_optimize(CLI::App& command) {
   const auto arguments = std::make_shared<OptimizeArguments>();
   graph::PoseOptimizerOptions& options = arguments->options;
   options.initialization = graph::Initialization::best;
-  command.add_option("graph", arguments->input, "Pose graph in g2o format")->required();
-  command.add_option("-o,--output", arguments->output, "Optimized graph in g2o format")->required();
+  command.add_option("graph", arguments->input, "Pose graph in g2o format, or a map")->required();
+  CLI::App* result = command.add_option_group("result")->require_option(1);
+  result->add_option("-o,--output", arguments->output, "Optimized graph in g2o format");
+  result
+      ->add_option(
+          "--submap", arguments->submap,
+          "Optimize this submap of a map, on its own in its own frame, and touch nothing else")
+      ->check(CLI::NonNegativeNumber);
   const std::map<std::string, graph::RobustMethod> methods = {{"none", graph::RobustMethod::none},
                                                               {"huber", graph::RobustMethod::huber},
                                                               {"gnc", graph::RobustMethod::gnc}};

@@ -11,14 +11,18 @@
 #include <numeric>
 #include <utility>
 
+#include "continue_run.hpp"
 #include "hmt/graph/information_loss.hpp"
 #include "hmt/graph/pose_covariance.hpp"
 #include "hmt/graph/pose_optimizer.hpp"
 #include "hmt/submap/link/condense_links.hpp"
+#include "hmt/submap/link/loop_effect.hpp"
 #include "hmt/submap/link/robust_solution.hpp"
+#include "hmt/submap/link/settle_submaps.hpp"
 #include "hmt/submap/local/optimize_submap.hpp"
 #include "hmt/submap/map/octree.hpp"
 #include "hmt/submap/partition/submap_manager.hpp"
+#include "link/loop_patch.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -27,6 +31,9 @@ namespace {
 // overlap and partition would come out the same again.
 constexpr double kSettledMove_m = 0.02;
 constexpr double kSettledTurn_rad = 0.005;
+// ... but for a few stray keyframes, which one constraint more or less lets go to and fro.
+constexpr double kStrayShare = 0.01;
+constexpr double kStrayMove_m = 0.1;
 // Bound on the rounds for a log on which loops are still found late.
 constexpr int kMaxRounds = 5;
 const std::string kSettled = "settled";
@@ -179,21 +186,28 @@ std::vector<Pose> keyframe_poses(const HybridMap& map) {
   return T_world_keyframe;
 }
 
-/// Largest difference between two sets of poses of the keyframes.
+/// Differences between two sets of poses of the keyframes.
 struct Move {
-  double metres = 0;
+  double metres = 0;  ///< the largest
   double radians = 0;
-  bool is_settled() const { return metres <= kSettledMove_m && radians <= kSettledTurn_rad; }
+  int unsettled = 0;  ///< keyframes that moved by more than overlap could ignore
+  int keyframes = 0;
+
+  bool is_settled() const { return metres <= kStrayMove_m && unsettled <= kStrayShare * keyframes; }
 };
 
-Move largest_move(std::span<const Pose> before, std::span<const Pose> after) {
-  Move largest;
+Move move_between(std::span<const Pose> before, std::span<const Pose> after) {
+  Move move;
+  move.keyframes = static_cast<int>(before.size());
   for (size_t k = 0; k < before.size(); ++k) {
-    const Vector6d move = graph::boxminus(after[k], before[k]);
-    largest.metres = std::max(largest.metres, move.head<3>().norm());
-    largest.radians = std::max(largest.radians, move.tail<3>().norm());
+    const Vector6d d = graph::boxminus(after[k], before[k]);
+    const double metres = d.head<3>().norm();
+    const double radians = d.tail<3>().norm();
+    move.metres = std::max(move.metres, metres);
+    move.radians = std::max(move.radians, radians);
+    if (metres > kSettledMove_m || radians > kSettledTurn_rad) ++move.unsettled;
   }
-  return largest;
+  return move;
 }
 
 /// The same submaps and links with the keyframes at the given poses.
@@ -205,6 +219,20 @@ void move_submaps(HybridMap& map, std::span<const Pose> T_world_keyframe) {
       submap.T_submap_keyframe[k] = graph::relative_pose(
           T_world_submap, T_world_keyframe[static_cast<size_t>(submap.keyframes[k])]);
   }
+}
+
+/// What the user rejected is not accepted again.
+void reject_again(std::vector<LoopCandidate>& candidates, std::span<const LoopCandidate> decided,
+                  std::span<const Pose> T_world_keyframe) {
+  const std::vector<double> path_m = path_lengths(T_world_keyframe);
+  for (LoopCandidate& candidate : candidates)
+    for (const LoopCandidate& rejected : decided) {
+      if (rejected.verdict != LoopVerdict::rejected || candidate.verdict != LoopVerdict::accepted ||
+          !tells_the_same(rejected, candidate, T_world_keyframe, path_m))
+        continue;
+      candidate.verdict = LoopVerdict::rejected;
+      candidate.reason = "tells the same as a candidate that the user rejected";
+    }
 }
 
 std::vector<LoopCandidate> find_loops(const HybridMap& map, std::span<const Pose> T_world_keyframe,
@@ -225,13 +253,15 @@ std::vector<LoopCandidate> find_loops(const HybridMap& map, std::span<const Pose
            known->bottomRightCorner<3, 3>().trace() < kTied_rad * kTied_rad;
   };
   problem.observations = &file;
-  return consistent_loops(search_loops(problem, run), graph);
+  std::vector<LoopCandidate> candidates = search_loops(problem, run);
+  reject_again(candidates, map.loops, T_world_keyframe);
+  return consistent_loops(std::move(candidates), graph);
 }
 
 std::vector<Constraint> with_loops(std::vector<Constraint> constraints,
                                    std::span<const LoopCandidate> candidates) {
   for (const LoopCandidate& c : candidates)
-    if (c.verdict == LoopVerdict::accepted) constraints.push_back(as_constraint(c));
+    if (is_closure(c.verdict)) constraints.push_back(as_constraint(c));
   return constraints;
 }
 
@@ -250,7 +280,7 @@ void take_loops(MapFile& file, const HybridMap& map, std::vector<LoopCandidate> 
   const RobustSolution solution = solve_robustly(map.track.space, keyframe_poses(map),
                                                  with_loops(map.constraints, candidates), run);
   mark_outliers(candidates, solution.outliers);
-  candidates.insert(candidates.begin(), map.loops.begin(), map.loops.end());
+  candidates = join_candidates(map.loops, std::move(candidates));
   StageWriter writer = file.begin(stage);
   writer.put_loops(candidates);
   writer.put_estimate(solution.T_world_keyframe);
@@ -258,25 +288,47 @@ void take_loops(MapFile& file, const HybridMap& map, std::vector<LoopCandidate> 
   writer.commit();
 }
 
-/// Refines the poses of all keyframes together, so that the division into submaps costs no
-/// accuracy.
-void refine(MapFile& file, HybridMap map, std::vector<LoopCandidate> candidates,
-            const std::string& stage, bool last_round, const Run& run) {
+graph::PoseOptimizerResult optimize_all(const HybridMap& map, std::span<const Pose> start,
+                                        const Run& run) {
   graph::PoseOptimizerOptions options;
   options.threads = run.threads;
-  const std::vector<Pose> T_world_keyframe =
-      graph::optimize(graph_of_all(map.track, keyframe_poses(map), map.constraints), options).poses;
-  move_submaps(map, T_world_keyframe);
-  candidates.insert(candidates.begin(), map.loops.begin(), map.loops.end());
-  const Move move = largest_move(file.load_estimate(), T_world_keyframe);
+  return graph::optimize(graph_of_all(map.track, start, map.constraints), options);
+}
+
+/// The map's last poses: all submaps settled against each other, then all keyframes refined
+/// together, so that the division into submaps costs no accuracy. `flat`: the same optimum reached
+/// without submaps.
+graph::PoseOptimizerResult refine_settled(const HybridMap& map,
+                                          const graph::PoseOptimizerReport& flat,
+                                          DivisionCost& division, const Run& run) {
+  const graph::PoseOptimizerResult refined = optimize_all(
+      map, settle_submaps(map.track.space, map.submaps, map.T_world_submap, map.constraints), run);
+  division = {refined.report.chi2_initial, refined.report.chi2, flat.chi2};
+  return refined;
+}
+
+/// Refines the poses of all keyframes together and ends the rounds if they stand.
+void refine(MapFile& file, HybridMap map, std::vector<LoopCandidate> candidates,
+            const std::string& stage, bool last_round, const Run& run) {
+  const std::vector<Pose> before = file.load_estimate();
+  graph::PoseOptimizerResult result = optimize_all(map, before, run);
+  const Move move = move_between(before, result.poses);
   run.log_info(stage + ": keyframes moved by up to " + std::to_string(move.metres) + " m, " +
-               std::to_string(move.radians) + " rad");
+               std::to_string(move.radians) + " rad; " + std::to_string(move.unsettled) + " of " +
+               std::to_string(move.keyframes) + " by more than 2 cm or 0.3 deg");
   const bool settled = last_round || move.is_settled();
   MapSolution solution = file.load_solution();
+  candidates = join_candidates(map.loops, std::move(candidates));
+  if (settled) {
+    result = refine_settled(map, result.report, solution.division, run);
+    rate_effects(candidates, graph_of_all(map.track, result.poses, map.constraints),
+                 map.constraints, run.threads);
+  }
+  move_submaps(map, result.poses);
   solution.T_world_submap = map.T_world_submap;
   StageWriter writer = file.begin(settled ? kSettled : stage);
   writer.put_loops(candidates);
-  writer.put_estimate(T_world_keyframe);
+  writer.put_estimate(result.poses);
   for (const Submap& submap : map.submaps) writer.put_submap(submap);
   writer.put_solution(solution);
   writer.commit();
@@ -287,9 +339,8 @@ void close_loops(MapFile& file, const std::string& stage, bool last_round, const
   std::vector<LoopCandidate> candidates;
   // A loop that is found in the last round could not be made part of the submaps any more.
   if (!last_round) candidates = find_loops(map, keyframe_poses(map), file, run);
-  const bool found = std::any_of(candidates.begin(), candidates.end(), [](const LoopCandidate& c) {
-    return c.verdict == LoopVerdict::accepted;
-  });
+  const bool found = std::any_of(candidates.begin(), candidates.end(),
+                                 [](const LoopCandidate& c) { return is_closure(c.verdict); });
   if (found) return take_loops(file, map, std::move(candidates), stage, run);
   refine(file, map, std::move(candidates), stage, last_round, run);
 }
@@ -373,6 +424,44 @@ std::string to_json(const Options& options) {
   return json.dump();
 }
 
+Options options_from_json(const std::string& text) {
+  Options options;
+  try {
+    const auto json = nlohmann::json::parse(text);
+    const auto get = [&json](const char* stage, const char* name, auto& value) {
+      json.at(stage).at(name).get_to(value);
+    };
+    get("log", "scan_topics", options.log.scan_topics);
+    get("log", "odometry_topic", options.log.odometry_topic);
+    get("log", "odometry_file", options.log.odometry_file);
+    get("track", "keyframe_distance_m", options.track.keyframe_distance_m);
+    get("track", "keyframe_angle_rad", options.track.keyframe_angle_rad);
+    get("overlap", "max_mahalanobis", options.overlap.max_mahalanobis);
+    get("overlap", "min_overlap", options.overlap.min_overlap);
+    get("local", "min_overlap", options.local.min_overlap);
+    get("partition", "tau", options.partition.tau);
+    get("partition", "min_keyframes", options.partition.min_keyframes);
+    get("partition", "sequential", options.partition.sequential);
+    get("partition", "max_window", options.partition.max_window);
+    get("octree", "resolution_m", options.octree_resolution_m);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(std::string("the options of the map cannot be read: ") + error.what());
+  }
+  return options;
+}
+
+std::vector<StageTime> continue_run(MapFile& file, const Options& options, const Run& run) {
+  Stages stages(file, run);
+  const Track track = file.load_track();
+  for (int round = 1; !file.finished(kSettled); ++round)
+    improve(file, track, round, options, run, stages);
+  stages("octomap", [&](const std::string& stage) {
+    build_octrees(file, options, run);
+    file.begin(stage).commit();
+  });
+  return stages.times();
+}
+
 BuildResult build_map(const std::filesystem::path& log, const std::filesystem::path& map,
                       const Options& options, MapFile::Existing existing, const Run& run) {
   MapOrigin origin;
@@ -387,14 +476,9 @@ BuildResult build_map(const std::filesystem::path& log, const std::filesystem::p
   Stages stages(file, run);
   stages("track",
          [&](const std::string& stage) { read_and_track(file, stage, log, options, run); });
-  const Track track = file.load_track();
-  for (int round = 1; !file.finished(kSettled); ++round)
-    improve(file, track, round, options, run, stages);
-  stages("octomap", [&](const std::string& stage) {
-    build_octrees(file, options, run);
-    file.begin(stage).commit();
-  });
   result.times = stages.times();
+  const std::vector<StageTime> rest = continue_run(file, options, run);
+  result.times.insert(result.times.end(), rest.begin(), rest.end());
   return result;
 }
 

@@ -7,8 +7,9 @@
 namespace hmt::submap {
 namespace {
 
-constexpr std::array kVerdictNames = {"accepted",     "low_score",    "ambiguous", "unconfirmed",
-                                      "contradicted", "inconsistent", "outlier"};
+constexpr std::array kVerdictNames = {"accepted",    "low_score",    "ambiguous",
+                                      "unconfirmed", "contradicted", "inconsistent",
+                                      "outlier",     "rejected",     "confirmed"};
 
 Eigen::Vector3d extent(const Submap& submap) {
   Eigen::Vector3d low = submap.T_submap_keyframe.at(0).translation;
@@ -49,7 +50,7 @@ EvidenceCount count_evidence(const HybridMap& map, const Link& link) {
     const ConstraintKind kind = map.constraints.at(static_cast<size_t>(index)).kind;
     if (kind == ConstraintKind::odometry) ++count.odometry;
     if (kind == ConstraintKind::registration) ++count.registration;
-    if (kind == ConstraintKind::loop) ++count.loop;
+    if (kind == ConstraintKind::loop || kind == ConstraintKind::confirmed) ++count.loop;
   }
   return count;
 }

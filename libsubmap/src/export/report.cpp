@@ -61,6 +61,10 @@ std::string figures_table(const HybridMap& map, const MapOrigin& origin) {
   table.add({"information loss of the partition (Eq. 22)", fixed_text(map.information_loss, 4)});
   table.add({"chi2 of the submap graph, first and last",
              fixed_text(map.chi2_initial, 3) + ", " + fixed_text(map.chi2, 3)});
+  table.add({"chi2 of all constraints by submaps, after joint refinement, flat",
+             fixed_text(map.division.chi2_hybrid, 3) + ", " +
+                 fixed_text(map.division.chi2_refined, 3) + ", " +
+                 fixed_text(map.division.chi2_flat, 3)});
   for (const auto& [reason, count] : map.track.log.notes)
     table.add({"log: " + reason, std::to_string(count)});
   for (const auto& [reason, count] : map.track.log.losses)
@@ -110,13 +114,14 @@ std::string loop_tables(const HybridMap& map) {
   for (const auto& [verdict, count] : count_verdicts(map))
     counts.add({verdict, std::to_string(count)});
   HtmlTable accepted("Accepted loop closures", {"keyframes", "submaps", "score", "second score",
-                                                "rmse [m]", "Mahalanobis", "reason"});
+                                                "rmse [m]", "Mahalanobis", "chi2", "reason"});
   for (const LoopCandidate& loop : map.loops)
-    if (loop.verdict == LoopVerdict::accepted)
+    if (is_closure(loop.verdict))
       accepted.add({std::to_string(loop.a) + ", " + std::to_string(loop.b),
                     std::to_string(loop.submap_a) + ", " + std::to_string(loop.submap_b),
                     fixed_text(loop.score, 3), fixed_text(loop.second_score, 3),
-                    fixed_text(loop.rmse_m, 4), fixed_text(loop.mahalanobis, 2), loop.reason});
+                    fixed_text(loop.rmse_m, 4), fixed_text(loop.mahalanobis, 2),
+                    fixed_text(loop.chi2_rise, 2), loop.reason});
   return counts.end() + accepted.end();
 }
 

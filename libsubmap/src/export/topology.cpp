@@ -139,6 +139,8 @@ std::string loops_jsonl(const HybridMap& map) {
                        {"b", loop.b},
                        {"submap_a", loop.submap_a},
                        {"submap_b", loop.submap_b},
+                       {"predicted_distance_m", loop.predicted_distance_m},
+                       {"predicted_sigma_m", loop.predicted_sigma_m},
                        {"verdict", verdict_name(loop.verdict)},
                        {"reason", loop.reason},
                        {"score", loop.score},
@@ -147,6 +149,7 @@ std::string loops_jsonl(const HybridMap& map) {
                        {"rmse_m", loop.rmse_m},
                        {"free_space_conflict", loop.free_space_conflict},
                        {"mahalanobis", loop.mahalanobis},
+                       {"chi2_rise", loop.chi2_rise},
                        {"T_a_b", to_json(loop.T_a_b)},
                        {"information", to_json(loop.information)}};
     lines += json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";

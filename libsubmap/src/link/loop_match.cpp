@@ -55,6 +55,15 @@ CorrelativeWindow window_of(const LoopProposal& proposal) {
           half(proposal.covariance(5, 5), kWindowMarginRad, std::numbers::pi)};
 }
 
+/// What the grid alone tells of a match.
+Matrix6d match_information() {
+  Vector6d sigma = Vector6d::Zero();
+  sigma << kGridSigmaM, kGridSigmaM, 0, 0, 0, kDegree;
+  Matrix6d information = Matrix6d::Zero();
+  for (const int k : {0, 1, 5}) information(k, k) = 1 / (sigma[k] * sigma[k]);
+  return information;
+}
+
 /// In the plane: x, y and heading, with what the covariance does not know added.
 double mahalanobis(const LoopProposal& proposal, const Pose& T_a_b) {
   const Vector6d d = graph::boxminus(T_a_b, proposal.T_a_b);
@@ -85,6 +94,8 @@ LoopCandidate start(const LoopProblem& problem, const LoopProposal& proposal) {
   candidate.submap_a = problem.submap[static_cast<size_t>(proposal.a)];
   candidate.submap_b = problem.submap[static_cast<size_t>(proposal.b)];
   candidate.T_a_b = proposal.T_a_b;
+  candidate.predicted_distance_m = proposal.T_a_b.translation.norm();
+  candidate.predicted_sigma_m = std::sqrt(proposal.covariance.topLeftCorner<3, 3>().trace());
   return candidate;
 }
 
@@ -123,6 +134,7 @@ LoopCandidate examine_loop(const LoopProblem& problem, std::span<const PlanarSca
     return refuse(candidate, LoopVerdict::low_score,
                   text("nowhere do %.0f %% of the points meet the map", 100 * kLeastScore));
   candidate.T_a_b = best->T_map_query;
+  candidate.information = match_information();
   candidate.score = best->score;
   candidate.mahalanobis = mahalanobis(proposal, candidate.T_a_b);
   if (candidate.mahalanobis > kBeliefGate)

@@ -11,7 +11,9 @@
 namespace hmt::submap {
 
 Constraint as_constraint(const LoopCandidate& loop) {
-  return {loop.a, loop.b, ConstraintKind::loop, loop.T_a_b, loop.information};
+  const auto kind =
+      loop.verdict == LoopVerdict::confirmed ? ConstraintKind::confirmed : ConstraintKind::loop;
+  return {loop.a, loop.b, kind, loop.T_a_b, loop.information};
 }
 
 std::vector<LoopCandidate> consistent_loops(std::vector<LoopCandidate> candidates,
@@ -48,7 +50,7 @@ RobustSolution solve_robustly(Space space, std::span<const Pose> T_world_keyfram
   graph::PoseOptimizerOptions options;
   options.robust = graph::RobustMethod::gnc;
   options.threads = run.threads;
-  for (const Constraint& c : constraints) options.trusted.push_back(is_within_visit(c));
+  for (const Constraint& c : constraints) options.trusted.push_back(is_trusted(c));
   const graph::PoseOptimizerResult result = graph::optimize(graph, options);
   RobustSolution solution;
   solution.T_world_keyframe = result.poses;

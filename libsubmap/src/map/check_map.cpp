@@ -25,7 +25,7 @@ class MapCheck {
     }
     for (const LoopCandidate& loop : map_->loops) {
       check_pair(loop.a, loop.b, n, "loop candidate");
-      require_index(static_cast<int>(loop.verdict), static_cast<size_t>(LoopVerdict::outlier) + 1,
+      require_index(static_cast<int>(loop.verdict), static_cast<size_t>(LoopVerdict::confirmed) + 1,
                     "verdict");
     }
     require(map_->T_world_submap.size() == num_submaps(), "not one pose a submap");

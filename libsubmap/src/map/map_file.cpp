@@ -123,6 +123,15 @@ MapFile MapFile::open_for_run(const fs::path& path, const MapOrigin& origin, Exi
   return MapFile(std::move(impl));
 }
 
+MapFile MapFile::open_for_change(const fs::path& path) {
+  require_file(path);
+  auto impl = std::make_unique<Impl>(path, Database::Access::write);
+  if (sqlite3_db_readonly(impl->database.handle(), "main") == 1)
+    impl->database.fail(SQLITE_READONLY);
+  check_schema(impl->database);
+  return MapFile(std::move(impl));
+}
+
 const fs::path& MapFile::path() const {
   return impl_->database.path();
 }

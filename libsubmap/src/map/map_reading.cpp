@@ -136,6 +136,7 @@ MapSolution MapFile::load_solution() const {
   solution.information_loss = records[0].information_loss;
   solution.chi2_initial = records[0].chi2_initial;
   solution.chi2 = records[0].chi2;
+  solution.division = records[0].division;
   for (const SubmapPose& pose : read_list<SubmapPose>(database, "submap_poses")) {
     solution.T_world_submap.push_back(pose.T_world_submap);
     solution.covariance_world_submap.push_back(pose.covariance);
@@ -187,6 +188,7 @@ HybridMap MapFile::load_map() const {
   map.information_loss = solution.information_loss;
   map.chi2_initial = solution.chi2_initial;
   map.chi2 = solution.chi2;
+  map.division = solution.division;
   check_map(impl_->database, map);
   return map;
 }

@@ -37,6 +37,7 @@ struct SolutionRecord {
   double information_loss = 0;
   double chi2_initial = 0;
   double chi2 = 0;
+  DivisionCost division;
 };
 
 /// Where one submap stands.
@@ -103,12 +104,14 @@ void fields(Visit&& visit, RecordOf<LinkEvidence> auto& e) {
 }
 template <class Visit>
 void fields(Visit&& visit, RecordOf<LoopCandidate> auto& l) {
-  visit(l.a, l.b, l.submap_a, l.submap_b, l.T_a_b, l.information, l.score, l.second_score,
-        l.inlier_fraction, l.rmse_m, l.free_space_conflict, l.mahalanobis, l.verdict, l.reason);
+  visit(l.a, l.b, l.submap_a, l.submap_b, l.predicted_distance_m, l.predicted_sigma_m, l.T_a_b,
+        l.information, l.score, l.second_score, l.inlier_fraction, l.rmse_m, l.free_space_conflict,
+        l.mahalanobis, l.chi2_rise, l.verdict, l.reason);
 }
 template <class Visit>
 void fields(Visit&& visit, RecordOf<SolutionRecord> auto& s) {
-  visit(s.information_loss, s.chi2_initial, s.chi2);
+  visit(s.information_loss, s.chi2_initial, s.chi2, s.division.chi2_hybrid, s.division.chi2_refined,
+        s.division.chi2_flat);
 }
 template <class Visit>
 void fields(Visit&& visit, RecordOf<SubmapPose> auto& p) {

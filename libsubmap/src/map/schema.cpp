@@ -48,12 +48,16 @@ constexpr std::array kTables = {
     Table{"links", "id INTEGER PRIMARY KEY, a, b, " HMT_POSE("ab") ", covariance BLOB, ncut, "
                                                                    "information_loss"},
     Table{"link_evidence", "id INTEGER PRIMARY KEY, link, constraint_id"},
-    Table{"loop_candidates", "id INTEGER PRIMARY KEY, a, b, submap_a, submap_b, " HMT_POSE(
-                                 "ab") ", "
-                                       "information BLOB, score, second_score, inlier_fraction, "
-                                       "rmse_m, free_space_conflict, "
-                                       "mahalanobis, verdict, reason TEXT"},
-    Table{"solution", "id INTEGER PRIMARY KEY, information_loss, chi2_initial, chi2"},
+    Table{"loop_candidates",
+          "id INTEGER PRIMARY KEY, a, b, submap_a, submap_b, "
+          "predicted_distance_m, predicted_sigma_m, " HMT_POSE(
+              "ab") ", "
+                    "information BLOB, score, second_score, inlier_fraction, "
+                    "rmse_m, free_space_conflict, "
+                    "mahalanobis, chi2_rise, verdict, reason TEXT"},
+    Table{"solution",
+          "id INTEGER PRIMARY KEY, information_loss, chi2_initial, chi2, chi2_hybrid, "
+          "chi2_refined, chi2_flat"},
     Table{"submap_poses", "submap INTEGER PRIMARY KEY, " HMT_POSE("world") ", covariance BLOB"},
     Table{"estimate", "keyframe INTEGER PRIMARY KEY, " HMT_POSE("world")},
     Table{"octrees", "submap INTEGER PRIMARY KEY, bytes, digest, ot_zstd BLOB"},

@@ -27,6 +27,12 @@ void erase_submap(Database& database, int id) {
   }
 }
 
+void erase_of_partition(Database& database) {
+  for (const char* table : {"submaps", "submap_keyframes", "submap_constraints", "links",
+                            "link_evidence", "solution", "submap_poses", "octrees"})
+    erase_list(database, table);
+}
+
 void put_submap_keyframes(Database& database, const Submap& submap, Digest& digest) {
   Statement insert(database, insert_sql(database, "submap_keyframes"));
   for (size_t k = 0; k < submap.keyframes.size(); ++k) {
@@ -125,9 +131,7 @@ void StageWriter::put_partition(const graph::Labels& submap_of_keyframe) {
   const std::lock_guard lock(impl_->file->mutex);
   Database& database = impl_->file->database;
   write_list<int>(database, "partition_labels", submap_of_keyframe);
-  for (const char* table : {"submaps", "submap_keyframes", "submap_constraints", "links",
-                            "link_evidence", "solution", "submap_poses", "octrees"})
-    erase_list(database, table);
+  erase_of_partition(database);
 }
 
 void StageWriter::put_submap(const Submap& submap) {
@@ -163,7 +167,8 @@ void StageWriter::put_loops(std::span<const LoopCandidate> loops) {
 
 void StageWriter::put_solution(const MapSolution& solution) {
   const std::lock_guard lock(impl_->file->mutex);
-  const SolutionRecord record{solution.information_loss, solution.chi2_initial, solution.chi2};
+  const SolutionRecord record{solution.information_loss, solution.chi2_initial, solution.chi2,
+                              solution.division};
   write_list<SolutionRecord>(impl_->file->database, "solution", {&record, 1});
   std::vector<SubmapPose> poses;
   for (size_t k = 0; k < solution.T_world_submap.size(); ++k)
@@ -185,6 +190,15 @@ void StageWriter::put_octree(int submap, std::string_view ot_bytes) {
   insert.bind(3, static_cast<int64_t>(digest_of(frame)));
   insert.bind_blob(4, frame);
   insert.run();
+}
+
+void StageWriter::reopen() {
+  const std::lock_guard lock(impl_->file->mutex);
+  Database& database = impl_->file->database;
+  database.execute(
+      "DELETE FROM stages WHERE key LIKE 'round%' OR key LIKE 'octomap%' OR key = 'settled'");
+  erase_list(database, "partition_labels");
+  erase_of_partition(database);
 }
 
 void StageWriter::commit() {

@@ -53,13 +53,25 @@ void OdometryModel::learn(const Pose& odometry_step, const Pose& measured_step) 
   const Vector6d error = boxminus(measured_step, odometry_step);
   const double translation = error.head<3>().squaredNorm() / (space_ == Space::se2 ? 2 : 3);
   const double rotation = error.tail<3>().squaredNorm() / (space_ == Space::se2 ? 1 : 3);
-  if (motion.translation < kRest) {
+  if (is_rest(odometry_step)) {
     rest_translation_.add(translation, 1, kRestMemory);
     rest_rotation_.add(rotation, 1, kRestMemory);
   } else {
     translation_.add(translation, motion.translation, kMemory);
     rotation_.add(rotation, motion.rotation, kMemory);
   }
+}
+
+OdometryModel OdometryModel::of_unknown_motion(Space space) {
+  OdometryModel model(space);
+  // A robot that drives off, or turns, within one step.
+  model.rest_translation_ = {5 * 0.1, 5};
+  model.rest_rotation_ = {5 * 0.05, 5};
+  return model;
+}
+
+bool OdometryModel::is_rest(const Pose& step) {
+  return motion_of(step).translation < kRest;
 }
 
 bool OdometryModel::is_motion(const Pose& step) {

@@ -16,6 +16,9 @@ class OdometryModel {
  public:
   explicit OdometryModel(Space space) : space_(space) {}
 
+  /// Of a robot about which nothing tells but how it moved before.
+  static OdometryModel of_unknown_motion(Space space);
+
   /// Covariance of an odometry step (tangent of Pose, frame of its end); rows of z, rx and ry are
   /// zero in the plane.
   Matrix6d covariance(const Pose& step) const;
@@ -23,6 +26,8 @@ class OdometryModel {
   void learn(const Pose& odometry_step, const Pose& measured_step);
   /// Whether a step may be a motion at all, not a jump of a broken or restarted odometry.
   static bool is_motion(const Pose& step);
+  /// Whether the odometry stood still.
+  static bool is_rest(const Pose& step);
 
  private:
   struct Rate {

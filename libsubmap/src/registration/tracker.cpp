@@ -20,6 +20,8 @@ constexpr double kUnknownStep_m = 1.0;
 constexpr double kUnknownStep_rad = 0.5;
 // A pose that defines the map has no error against it.
 constexpr double kDefining = 1e12;
+// Information so small (100 m, 100 rad) that it says nothing.
+constexpr double kNothing = 1e-4;
 
 Matrix6d diagonal_in(Space space, double translation, double rotation) {
   Vector6d v;
@@ -67,7 +69,11 @@ double rotation_angle_rad(const Pose& T) {
 }  // namespace
 
 Tracker::Tracker(Space space, const TrackOptions& options)
-    : space_(space), options_(options), step_odometry_(space), keyframe_odometry_(space) {
+    : space_(space),
+      options_(options),
+      step_odometry_(space),
+      keyframe_odometry_(space),
+      steady_(OdometryModel::of_unknown_motion(space)) {
   track_.space = space;
 }
 
@@ -81,15 +87,9 @@ void Tracker::add(const Observation& observation) {
   if (track_.keyframes.empty()) {
     start(observation);
   } else {
-    Pose step = relative_pose(T_odom_latest_, observation.T_odom_robot);
-    Matrix6d step_covariance = step_odometry_.covariance(step);
-    if (!OdometryModel::is_motion(step)) {
-      step = Pose{};
-      step_covariance =
-          diagonal_in(space_, kUnknownStep_m * kUnknownStep_m, kUnknownStep_rad * kUnknownStep_rad);
-      odometry_unbroken_ = false;
-      ++counts_.odometry_jumps;
-    }
+    const Motion motion = predict_step(observation);
+    const Pose& step = motion.step;
+    Matrix6d step_covariance = motion.covariance;
     // Where the odometry's word was taken against the surfaces, it is trusted less and less.
     step_covariance *= std::exp2(2 * std::min(refused_, kMostRefused));
     T_keyframe_odometry_ = T_keyframe_odometry_ * step;
@@ -97,9 +97,9 @@ void Tracker::add(const Observation& observation) {
     const Prediction prediction{T_track_latest_ * step, covariance, inverse_in(space_, covariance)};
     Surface surface = make_surface(observation);
     const Estimate found = estimate(surface, prediction);
-    if (found.registered && odometry_unbroken_ &&
-        observes_all(space_, found.information, prediction.information))
-      step_odometry_.learn(step, relative_pose(T_track_latest_, found.T_track_robot));
+    learn_odometry(motion, prediction, found);
+    latest_step_ = relative_pose(T_track_latest_, found.T_track_robot);
+    latest_duration_s_ = motion.duration_s;
     T_track_latest_ = found.T_track_robot;
     covariance_latest_ =
         found.registered ? inverse_in(space_, inverse_in(space_, covariance) + found.information)
@@ -111,9 +111,57 @@ void Tracker::add(const Observation& observation) {
       add_keyframe(observation, found, std::move(surface));
   }
   T_odom_latest_ = observation.T_odom_robot;
+  stamp_latest_s_ = observation.stamp_s;
   const Keyframe& keyframe = track_.keyframes.back();
   track_.observations.push_back({observation.index, observation.stamp_s, keyframe.id,
                                  relative_pose(keyframe.T_track_robot, T_track_latest_)});
+}
+
+Tracker::Motion Tracker::predict_step(const Observation& observation) {
+  Motion motion;
+  motion.odometry = relative_pose(T_odom_latest_, observation.T_odom_robot);
+  motion.duration_s = std::max(0.0, observation.stamp_s - stamp_latest_s_);
+  if (!OdometryModel::is_motion(motion.odometry)) {
+    motion.covariance = unknown_step(space_);
+    odometry_unbroken_ = false;
+    ++counts_.odometry_jumps;
+    return motion;
+  }
+  odometry_moves_ = odometry_moves_ || !OdometryModel::is_rest(motion.odometry);
+  if (!odometry_moves_) {
+    const double longer = latest_duration_s_ > 0 ? motion.duration_s / latest_duration_s_ : 1;
+    motion.step = boxplus(Pose{}, std::min(longer, 2.0) * boxminus(latest_step_, Pose{}));
+    motion.covariance = steady_.covariance(motion.step);
+    odometry_unbroken_ = false;
+    return motion;
+  }
+  motion.by_odometry = odometry_unbroken_;
+  motion.step = space_ == Space::se2 ? calibration_.corrected(motion.odometry, motion.duration_s)
+                                     : motion.odometry;
+  motion.covariance = step_odometry_.covariance(motion.step);
+  return motion;
+}
+
+void Tracker::learn_odometry(const Motion& motion, const Prediction& prediction,
+                             const Estimate& found) {
+  if (!found.registered) return;
+  if (motion.by_odometry && space_ == Space::se2) {
+    // The estimate lies between the prediction p and what the surfaces alone say, m:
+    // x - p = (I + P)^-1 I (m - p) with their informations I and P.
+    const Eigen::Array3i plane(0, 1, 5);
+    const Vector6d moved = boxminus(found.T_track_robot, prediction.T_track_robot);
+    const Eigen::Matrix3d noise =
+        (found.information + kNothing * Matrix6d::Identity())(plane, plane).inverse();
+    const Eigen::Vector3d free =
+        moved(plane) + noise * (prediction.information(plane, plane) * moved(plane)).eval();
+    const Eigen::Matrix3d covariance = noise + prediction.covariance(plane, plane);
+    const Eigen::Array2i along(0, 2);
+    calibration_.learn(motion.odometry, motion.duration_s, free(along), covariance(along, along));
+  }
+  if (!observes_all(space_, found.information, prediction.information)) return;
+  const Pose measured = relative_pose(T_track_latest_, found.T_track_robot);
+  if (motion.by_odometry) step_odometry_.learn(motion.step, measured);
+  if (!odometry_moves_) steady_.learn(motion.step, measured);
 }
 
 double Tracker::mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const {
@@ -132,7 +180,8 @@ Tracker::Estimate Tracker::estimate(const Surface& surface, const Prediction& pr
   options.space = space_;
   options.prior = PosePrior{prediction.T_track_robot, prediction.information};
   Registration found = register_surface(surface, map_.target(), prediction.T_track_robot, options);
-  if (credit(found, prediction) < kLeastInlierFraction ||
+  // Without odometry the guess may be so far off that a wrong pose fits well enough.
+  if (!odometry_moves_ || credit(found, prediction) < kLeastInlierFraction ||
       mahalanobis2(found.T_target_source, prediction) > kDoubtful2) {
     found = search(surface, prediction, found);
     if (credit(found, prediction) < kLeastInlierFraction) {

@@ -5,6 +5,7 @@
 #include "hmt/submap/registration/correlative.hpp"
 #include "hmt/submap/registration/track.hpp"
 #include "local_map.hpp"
+#include "odometry_calibration.hpp"
 #include "odometry_model.hpp"
 
 namespace hmt::submap {
@@ -40,6 +41,15 @@ class Tracker {
     Matrix6d information = Matrix6d::Zero();
   };
 
+  /// A step between two observations.
+  struct Motion {
+    Pose odometry;  ///< as the log has it
+    Pose step;      ///< what is believed of it
+    Matrix6d covariance = Matrix6d::Zero();
+    double duration_s = 0;
+    bool by_odometry = false;  ///< otherwise nothing is to be learnt about it
+  };
+
   Estimate estimate(const Surface& surface, const Prediction& prediction);
   Registration search(const Surface& surface, const Prediction& prediction,
                       const Registration& first);
@@ -49,18 +59,30 @@ class Tracker {
   double credit(const Registration& registration, const Prediction& prediction) const;
   double mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const;
   void start(const Observation& observation);
+  /// The robot's motion since the latest observation, before its surfaces are looked at.
+  Motion predict_step(const Observation& observation);
+  /// What a registration tells of the odometry.
+  void learn_odometry(const Motion& motion, const Prediction& prediction, const Estimate& found);
   void add_keyframe(const Observation& observation, const Estimate& estimate, Surface surface);
 
   Space space_;
   TrackOptions options_;
   // Between observations a clock's jitter counts, which is gone between keyframes.
+  OdometryCalibration calibration_;
   OdometryModel step_odometry_;
   OdometryModel keyframe_odometry_;
+  // Until the odometry moves for the first time, which in a log without any it never does: the
+  // robot goes on as it went.
+  OdometryModel steady_;
+  bool odometry_moves_ = false;
+  Pose latest_step_;
+  double latest_duration_s_ = 0;
   LocalMap map_;
   Track track_;
   TrackCounts counts_;
 
   // The latest observation.
+  double stamp_latest_s_ = 0;
   Pose T_odom_latest_;
   Pose T_track_latest_;
   Matrix6d covariance_latest_ = Matrix6d::Zero();  // against the local map

@@ -122,7 +122,7 @@ inline void write_sample_map(const std::filesystem::path& path) {
   rest.put_links(map.links);
   rest.put_loops(map.loops);
   rest.put_solution({map.T_world_submap, map.covariance_world_submap, map.information_loss,
-                     map.chi2_initial, map.chi2});
+                     map.chi2_initial, map.chi2, map.division});
   rest.commit();
 }
 

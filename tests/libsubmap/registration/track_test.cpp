@@ -120,6 +120,12 @@ TEST(TrackLog, SurvivesOdometryThatTurnsByItself) {
   EXPECT_LT(largest_error_m(track(log.observations), log.T_world_robot, 1), 0.1);
 }
 
+TEST(TrackLog, FollowsARobotWithoutOdometry) {
+  SimulatedLog log = rooms();
+  for (Observation& observation : log.observations) observation.T_odom_robot = Pose{};
+  EXPECT_LT(largest_error_m(track(log.observations), log.T_world_robot, 10), 0.1);
+}
+
 TEST(TrackLog, BridgesEmptyScansByOdometry) {
   std::vector<Observation> observations(3);
   for (size_t i = 0; i < observations.size(); ++i) {

@@ -29,6 +29,8 @@ struct Options {
 /// All options with their values as a JSON object, one member a stage; equal options give equal
 /// text.
 std::string to_json(const Options& options);
+/// The options of a map from its file. Throws InputError if the text is not what to_json gives.
+Options options_from_json(const std::string& text);
 
 /// Seconds that a stage took in this run; stages that an earlier run had finished are not there.
 struct StageTime {

@@ -145,6 +145,35 @@ FloorPlan building(Random& random) {
   return plan;
 }
 
+/// A corridor of 200 m that closes a loop, with equal rooms on its outer side: every side looks
+/// like the one across.
+FloorPlan ring() {
+  static constexpr double kLength = 70;
+  static constexpr double kDepth = 30;
+  static constexpr int kRooms = 12;
+  FloorPlan plan;
+  for (const double y : {0.0, kDepth})
+    plan.free.push_back(box(-kHalfWidth, y - kHalfWidth, kLength + kHalfWidth, y + kHalfWidth));
+  for (const double x : {0.0, kLength})
+    plan.free.push_back(box(x - kHalfWidth, -kHalfWidth, x + kHalfWidth, kDepth + kHalfWidth));
+  const std::array rows = {row_of_rooms(0, kLength, kRooms, 0, 5, -1),
+                           row_of_rooms(0, kLength, kRooms, kDepth, 5, 1)};
+  for (const auto& row : rows)
+    for (const SideRoom& room : row) add(room, plan);
+  plan.path = [rows](int lap) {
+    const auto enter = [&](size_t row, int k, Path& path) {
+      visit(rows[row][static_cast<size_t>((k + lap) % kRooms)], path);
+    };
+    Path path = {{0, 0}};
+    enter(0, 2, path);
+    path.insert(path.end(), {{kLength, 0}, {kLength, kDepth}});
+    enter(1, 7, path);
+    path.insert(path.end(), {{0, kDepth}, {0, 0}, {20, 0}, {0, 0}});
+    return path;
+  };
+  return plan;
+}
+
 FloorPlan symmetric() {
   static constexpr double kLength = 200;
   static constexpr int kRooms = 33;
@@ -167,13 +196,14 @@ FloorPlan symmetric() {
 }  // namespace
 
 std::vector<std::string> simulated_worlds() {
-  return {"building", "corridor", "rooms", "symmetric"};
+  return {"building", "corridor", "ring", "rooms", "symmetric"};
 }
 
 FloorPlan make_floor_plan(const std::string& name, uint64_t seed) {
   Random random(seed);
   if (name == "building") return building(random);
   if (name == "corridor") return corridor(random);
+  if (name == "ring") return ring();
   if (name == "rooms") return three_rooms(random);
   if (name == "symmetric") return symmetric();
   std::string known;

@@ -22,8 +22,15 @@ enum class LoopVerdict {
   unconfirmed,   ///< registration did not converge, or ended elsewhere
   contradicted,  ///< free space seen by one is occupied in the other
   inconsistent,  ///< disagrees with the other loop closures (pairwise consistency)
-  outlier        ///< refused by the robust optimizer
+  outlier,       ///< refused by the robust optimizer
+  rejected,      ///< refused by the user, or it tells the same as one that the user refused
+  confirmed      ///< accepted by the user, whatever speaks against it
 };
+
+/// Whether the candidate holds the map together.
+inline bool is_closure(LoopVerdict verdict) {
+  return verdict == LoopVerdict::accepted || verdict == LoopVerdict::confirmed;
+}
 
 /// A pair of keyframes that may show the same place, with everything the verdict rests on.
 struct LoopCandidate {
@@ -31,8 +38,13 @@ struct LoopCandidate {
   int b = 0;  ///< keyframe that is searched in it
   int submap_a = 0;
   int submap_b = 0;
-  Pose T_a_b;                               ///< best match
-  Matrix6d information = Matrix6d::Zero();  ///< of T_a_b, tangent of Pose (frame b)
+  /// Why it was looked at: so far from each other by the map as it was then, known so well.
+  double predicted_distance_m = 0;
+  double predicted_sigma_m = 0;  ///< of the relative position, root of the trace
+  Pose T_a_b;                    ///< best match; where there is none, the prediction
+  /// Of T_a_b, tangent of Pose (frame b); zero without a match, that of the search grid where
+  /// registration did not confirm it.
+  Matrix6d information = Matrix6d::Zero();
   double score = 0;  ///< share of b's points that meet a's surfaces at the best match, [0, 1]
   double second_score = 0;     ///< the same of the best match that differs from the best one, or
                                ///< 0.7 score if it is below that
@@ -41,6 +53,9 @@ struct LoopCandidate {
   double free_space_conflict = 0;  ///< share of b's points that lie where a saw through, and the
                                    ///< reverse
   double mahalanobis = 0;  ///< distance of T_a_b from the prediction, accumulated covariance
+  /// By how much it raises the least chi2 of the finished map: with it minus without it, whether it
+  /// was taken or not. Zero without a match, and until the map is finished.
+  double chi2_rise = 0;
   LoopVerdict verdict = LoopVerdict::low_score;
   std::string reason;  ///< one sentence for the user
 

@@ -32,7 +32,8 @@ struct RobustSolution {
 };
 
 /// Optimizes all keyframes with graduated non-convexity [Yang 2020]: odometry and registrations
-/// within one visit are trusted, all other constraints are in or out.
+/// within one visit are trusted, and so is what the user confirmed; all other constraints are in
+/// or out.
 RobustSolution solve_robustly(Space space, std::span<const Pose> T_world_keyframe,
                               std::span<const Constraint> constraints, const Run& run);
 

@@ -15,7 +15,8 @@ namespace hmt::submap {
 /// A robot with a planar laser and wheel odometry in a building of walls.
 struct SimulationOptions {
   /// `rooms`: three rooms in a row. `corridor`: 100 m long, with niches. `building`: rooms along a
-  /// corridor that closes a loop. `symmetric`: many equal rooms along a 200 m corridor.
+  /// corridor that closes a loop. `symmetric`: many equal rooms along a 200 m corridor. `ring`: 200
+  /// m of corridor that closes a loop, with equal rooms.
   std::string world = "building";
   uint64_t seed = 1;
   int laps = 1;  ///< rounds through the building, [1, 1000000]; later ones enter other rooms

@@ -14,6 +14,19 @@
 
 namespace hmt::submap {
 
+/// What the way over submaps costs against one flat optimization of all keyframes: chi2 of all
+/// constraints. Zero until the map is finished.
+struct DivisionCost {
+  /// Each submap at its own optimum, placed by the condensed links.
+  double chi2_hybrid = 0;
+  /// After the joint refinement from there: the map's poses.
+  double chi2_refined = 0;
+  /// Of the flat optimization, which knows of no submaps.
+  double chi2_flat = 0;
+
+  bool operator==(const DivisionCost&) const = default;
+};
+
 /// The graph of submaps and links with all that it was made from, except the observations and the
 /// OctoMaps, which stay in the map file.
 struct HybridMap {
@@ -29,6 +42,7 @@ struct HybridMap {
   double information_loss = 0;                    ///< e of Eq. 22 for the whole partition
   double chi2_initial = 0;                        ///< of the submap graph
   double chi2 = 0;
+  DivisionCost division;
 };
 
 /// T_world_keyframe of a keyframe.

@@ -36,6 +36,7 @@ struct MapSolution {
   double information_loss = 0;
   double chi2_initial = 0;
   double chi2 = 0;
+  DivisionCost division;
 
   bool operator==(const MapSolution&) const = default;
 };
@@ -62,6 +63,8 @@ class MapFile : public ObservationStore {
   /// Opens for a run: creates the file or goes on with it.
   static MapFile open_for_run(const std::filesystem::path& path, const MapOrigin& origin,
                               Existing existing);
+  /// Opens a map that is there, to change it.
+  static MapFile open_for_change(const std::filesystem::path& path);
   ~MapFile() override;
   MapFile(MapFile&&) noexcept;
   MapFile& operator=(MapFile&&) noexcept;
@@ -131,6 +134,9 @@ class StageWriter {
   void put_estimate(std::span<const Pose> T_world_keyframe);
   /// The OctoMap of a submap in OctoMap's .ot format.
   void put_octree(int submap, std::string_view ot_bytes);
+  /// Forgets that the stages after the track are finished, and removes what belongs to the
+  /// partition: the run goes on from the constraints, loops and estimate that are put now.
+  void reopen();
   /// Records the stage as finished, together with all that was put.
   void commit();
 

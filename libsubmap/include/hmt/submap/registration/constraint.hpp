@@ -13,7 +13,8 @@ namespace hmt::submap {
 enum class ConstraintKind {
   odometry,      ///< consecutive keyframes, from the front end
   registration,  ///< two keyframes whose overlap was predicted and confirmed by registration
-  loop           ///< found by the loop search
+  loop,          ///< found by the loop search
+  confirmed      ///< a loop that the user vouches for
 };
 
 /// Measured relative pose of two keyframes, a < b.
@@ -35,7 +36,13 @@ inline constexpr int kVisitGap = 10;
 /// True for odometry and for registrations within one visit: the drift between the two keyframes is
 /// so small that the registration cannot have gone to a wrong place.
 inline bool is_within_visit(const Constraint& c) {
-  return c.kind != ConstraintKind::loop && c.b - c.a <= kVisitGap;
+  return (c.kind == ConstraintKind::odometry || c.kind == ConstraintKind::registration) &&
+         c.b - c.a <= kVisitGap;
+}
+
+/// True for what the robust optimization never doubts.
+inline bool is_trusted(const Constraint& c) {
+  return is_within_visit(c) || c.kind == ConstraintKind::confirmed;
 }
 
 /// Smallest eigenvalue of the information over the directions that the space has: what the least
