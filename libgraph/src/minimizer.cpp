@@ -65,6 +65,8 @@ ceres::Solver::Options solver_options(double radius, int max_iterations, StepWat
   options.gradient_tolerance = 1e-10;
   options.parameter_tolerance = 1e-10;
   options.num_threads = 1;
+  // The factor does not depend on the scale of the columns, nor does the damping.
+  options.jacobi_scaling = false;
   options.logging_type = ceres::SILENT;
   options.callbacks = {&watcher};
   return options;

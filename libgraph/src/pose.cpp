@@ -88,6 +88,7 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 }
 
 double wrap_angle(double angle_rad) {
+  if (std::abs(angle_rad) < std::numbers::pi) return angle_rad;
   const double wrapped = std::remainder(angle_rad, 2 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? wrapped + 2 * std::numbers::pi : wrapped;
 }

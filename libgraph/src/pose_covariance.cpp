@@ -7,7 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,18 +17,12 @@
 
 #include "hmt/graph/input_error.hpp"
 #include "pose_problem.hpp"
+#include "sparse_cholesky.hpp"
 
 namespace hmt::graph {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
-using Cholesky = Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
-
-/// A pivot below this share of its diagonal entry is zero up to the rounding of the elimination.
-constexpr double kSingularPivot = 1e-13;
-
-/// The eigenvalues come within some percent; only the magnitude of a condition number matters.
-constexpr int kPowerIterations = 30;
 
 /// Position of every free node in a fill-reducing elimination order; -1 for a held node.
 std::vector<int> elimination_order(const PoseGraph& graph, const std::vector<bool>& held) {
@@ -37,6 +31,7 @@ std::vector<int> elimination_order(const PoseGraph& graph, const std::vector<boo
   for (size_t node = 0; node < held.size(); ++node)
     if (!held[node]) free_index[node] = count++;
   std::vector<Eigen::Triplet<double>> pattern;
+  pattern.reserve(2 * graph.edges.size() + held.size());
   for (const PoseGraphEdge& edge : graph.edges) {
     const int a = free_index[static_cast<size_t>(edge.from)];
     const int b = free_index[static_cast<size_t>(edge.to)];
@@ -68,35 +63,14 @@ class InformationFactor {
     parameters_.resize(graph.poses.size() * Chart::kParameters);
     for (size_t node = 0; node < graph.poses.size(); ++node)
       Chart::store(graph.poses[node], parameters_.data() + node * Chart::kParameters);
-    factorize(graph);
+    information_ = information_matrix(graph);
+    factor_ = cholesky_factor(information_);
   }
 
-  bool ok() const { return ok_; }
+  bool ok() const { return factor_.has_value(); }
   size_t num_nodes() const { return slot_.size(); }
 
-  double condition() const {
-    const auto L = cholesky_.matrixL();
-    const auto U = cholesky_.matrixU();
-    if (L.cols() == 0) return 1;
-    const auto norm_after = [&](const auto& multiply) {
-      // Uneven, so that no eigenvector of a regular graph is orthogonal to it.
-      Eigen::VectorXd x(L.cols());
-      for (Eigen::Index i = 0; i < x.size(); ++i)
-        x[i] = 1 + 0.5 * std::sin(static_cast<double>(i * i));
-      double norm = 0;
-      for (int k = 0; k < kPowerIterations; ++k) {
-        x /= x.norm();
-        x = multiply(x);
-        norm = x.norm();
-      }
-      return norm;
-    };
-    const double largest = norm_after(
-        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return L * Eigen::VectorXd(U * x); });
-    const double inverse_of_smallest =
-        norm_after([&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return cholesky_.solve(x); });
-    return largest * inverse_of_smallest;
-  }
+  double condition() const { return condition_number(information_, *factor_); }
 
   Matrix6d marginal(int node) const {
     std::array<double, Chart::kParameters> world;
@@ -146,19 +120,9 @@ class InformationFactor {
     return parameters_.data() + static_cast<size_t>(node) * Chart::kParameters;
   }
 
-  void factorize(const PoseGraph& graph) {
-    const SparseMatrix information = information_matrix(graph);
-    cholesky_.compute(information);
-    ok_ = cholesky_.info() == Eigen::Success;
-    const SparseMatrix& L = cholesky_.matrixL().nestedExpression();
-    for (int j = 0; ok_ && j < L.cols(); ++j) {
-      const double pivot = L.valuePtr()[L.outerIndexPtr()[j]];
-      ok_ = pivot * pivot > kSingularPivot * information.coeff(j, j);
-    }
-  }
-
   SparseMatrix information_matrix(const PoseGraph& graph) const {
     std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(graph.edges.size() * kSize * (2 * kSize + 1));
     const auto add = [&entries](int row_slot, int column_slot, const Matrix& block) {
       if (row_slot < column_slot || column_slot < 0) return;
       for (int r = 0; r < kSize; ++r)
@@ -189,7 +153,7 @@ class InformationFactor {
   }
 
   Matrix covariance_block(const std::array<Term, 2>& terms) const {
-    const SparseMatrix& L = cholesky_.matrixL().nestedExpression();
+    const SparseMatrix& L = *factor_;
     Columns& y = workspace_.local();
     if (y.rows() != L.rows()) y.setZero(L.rows(), kSize);
     const std::vector<int> path = union_of_paths(terms, L);
@@ -219,10 +183,10 @@ class InformationFactor {
   const Columns& column(int node) const {
     ColumnOfPose& kept = column_.local();
     if (kept.node == node) return kept.values;
-    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(cholesky_.rows(), kSize);
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(factor_->rows(), kSize);
     if (slot(node) >= 0)
       unit.template middleRows<kSize>(Eigen::Index{slot(node)} * kSize).setIdentity();
-    kept.values = cholesky_.solve(unit);
+    kept.values = solve_with_factor(*factor_, std::move(unit));
     kept.node = node;
     return kept.values;
   }
@@ -249,8 +213,8 @@ class InformationFactor {
   std::vector<bool> held_;
   std::vector<int> slot_;
   std::vector<double> parameters_;
-  Cholesky cholesky_;
-  bool ok_ = false;
+  SparseMatrix information_;            ///< lower triangle
+  std::optional<SparseMatrix> factor_;  ///< nothing where singular
   struct ColumnOfPose {
     int node = -1;
     Columns values;
