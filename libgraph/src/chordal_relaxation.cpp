@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "elimination_order.hpp"
 #include "openmp_guard.hpp"
 #include "pose_problem.hpp"
 
@@ -15,16 +16,8 @@ namespace {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Position of every free node among the unknowns; -1 for a held node.
-std::vector<int> unknowns_of(const std::vector<bool>& held) {
-  std::vector<int> unknown(held.size(), -1);
-  int count = 0;
-  for (size_t node = 0; node < held.size(); ++node)
-    if (!held[node]) unknown[node] = count++;
-  return unknown;
-}
-
-/// X of H X = B, H by its lower triangle; nothing where H is not positive definite.
+/// X of H X = B, H by its lower triangle in a good order of elimination; nothing where H is not
+/// positive definite.
 std::optional<Eigen::MatrixXd> solve_positive_definite(const Triplets& lower,
                                                        const Eigen::MatrixXd& B) {
   SparseMatrix H(B.rows(), B.rows());
@@ -32,6 +25,8 @@ std::optional<Eigen::MatrixXd> solve_positive_definite(const Triplets& lower,
   const OpenMpGuard guard;
   Eigen::CholmodDecomposition<SparseMatrix, Eigen::Lower> cholesky;
   cholesky.cholmod().print = 0;
+  cholesky.cholmod().nmethods = 1;
+  cholesky.cholmod().method[0].ordering = CHOLMOD_NATURAL;
   cholesky.compute(H);
   if (cholesky.info() != Eigen::Success) return std::nullopt;
   Eigen::MatrixXd X = cholesky.solve(B);
@@ -132,7 +127,7 @@ bool solve_translations(const PoseGraph& graph, const std::vector<int>& unknown,
 
 template <int d>
 std::optional<std::vector<Pose>> relax(const PoseGraph& graph) {
-  const std::vector<int> unknown = unknowns_of(held_nodes(graph));
+  const std::vector<int> unknown = elimination_order(graph, held_nodes(graph));
   std::vector<Pose> poses = graph.poses;
   // CHOLMOD does not take an empty system.
   if (std::all_of(unknown.begin(), unknown.end(), [](int u) { return u < 0; })) return poses;

@@ -6,7 +6,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 #include <string>
 #include <variant>
 
+#include "elimination_order.hpp"
 #include "hmt/graph/input_error.hpp"
 #include "pose_problem.hpp"
 #include "sparse_cholesky.hpp"
@@ -23,33 +23,6 @@ namespace hmt::graph {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
-
-/// Position of every free node in a fill-reducing elimination order; -1 for a held node.
-std::vector<int> elimination_order(const PoseGraph& graph, const std::vector<bool>& held) {
-  std::vector<int> free_index(held.size(), -1);
-  int count = 0;
-  for (size_t node = 0; node < held.size(); ++node)
-    if (!held[node]) free_index[node] = count++;
-  std::vector<Eigen::Triplet<double>> pattern;
-  pattern.reserve(2 * graph.edges.size() + held.size());
-  for (const PoseGraphEdge& edge : graph.edges) {
-    const int a = free_index[static_cast<size_t>(edge.from)];
-    const int b = free_index[static_cast<size_t>(edge.to)];
-    if (a < 0 || b < 0) continue;
-    pattern.emplace_back(a, b, 1.0);
-    pattern.emplace_back(b, a, 1.0);
-  }
-  for (int i = 0; i < count; ++i) pattern.emplace_back(i, i, 1.0);
-  SparseMatrix adjacency(count, count);
-  adjacency.setFromTriplets(pattern.begin(), pattern.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> old_of_new;
-  Eigen::AMDOrdering<int>()(adjacency, old_of_new);
-  std::vector<int> new_of_old(static_cast<size_t>(count));
-  for (int i = 0; i < count; ++i) new_of_old[static_cast<size_t>(old_of_new.indices()(i))] = i;
-  for (int& index : free_index)
-    if (index >= 0) index = new_of_old[static_cast<size_t>(index)];
-  return free_index;
-}
 
 /// The factor L of the information matrix of all free poses, L L^T = sum of J^T Omega J, and the
 /// covariance of linear functions of the poses from it.

@@ -20,24 +20,29 @@ bool has_valid_information(const PoseGraphEdge& edge) {
   return is_definite(block) || is_semidefinite(block);
 }
 
-void check_edge(const PoseGraphEdge& edge, size_t index, Space space, size_t num_poses) {
-  const std::string name = "pose graph edge " + std::to_string(index) + " (" +
-                           std::to_string(edge.from) + " -> " + std::to_string(edge.to) + "): ";
+/// What is wrong with an edge; nothing where it is valid.
+std::string fault_of(const PoseGraphEdge& edge, Space space, size_t num_poses) {
   for (const int node : {edge.from, edge.to})
     if (node < 0 || static_cast<size_t>(node) >= num_poses)
-      throw InputError(name + "node " + std::to_string(node) + " is outside the graph of " +
-                       std::to_string(num_poses) + " poses");
-  if (edge.from == edge.to) throw InputError(name + "joins a node to itself; leave it out");
-  if (!is_finite(edge.T_from_to)) throw InputError(name + "the relative pose is not finite");
-  if (!edge.information.allFinite())
-    throw InputError(name + "the information matrix is not finite");
+      return "node " + std::to_string(node) + " is outside the graph of " +
+             std::to_string(num_poses) + " poses";
+  if (edge.from == edge.to) return "joins a node to itself; leave it out";
+  if (!is_finite(edge.T_from_to)) return "the relative pose is not finite";
+  if (!edge.information.allFinite()) return "the information matrix is not finite";
   if (!edge.information.isApprox(edge.information.transpose(), 1e-9))
-    throw InputError(name + "the information matrix is not symmetric");
+    return "the information matrix is not symmetric";
   if (!(space == Space::se2 ? has_valid_information<PlanarChart>(edge)
                             : has_valid_information<SpatialChart>(edge)))
-    throw InputError(name +
-                     "the information matrix has a negative eigenvalue; correct it or take the "
-                     "nearest positive semidefinite one");
+    return "the information matrix has a negative eigenvalue; correct it or take the nearest "
+           "positive semidefinite one";
+  return {};
+}
+
+void check_edge(const PoseGraphEdge& edge, size_t index, Space space, size_t num_poses) {
+  const std::string fault = fault_of(edge, space, num_poses);
+  if (!fault.empty())
+    throw InputError("pose graph edge " + std::to_string(index) + " (" + std::to_string(edge.from) +
+                     " -> " + std::to_string(edge.to) + "): " + fault);
 }
 
 int find_root(std::vector<int>& parent, int node) {
