@@ -218,6 +218,7 @@ nlohmann::ordered_json to_json(const graph::G2oFile& file, const graph::PoseOpti
       {"gradient_norm", report.gradient_norm},
       {"inliers", std::count(report.inlier.begin(), report.inlier.end(), true)},
       {"outliers", outliers_to_json(file, report)},
+      {"untrusted_start", report.untrusted_start},
       {"input", inputs_to_json(file)},
       {"solve_s", report.solve_s},
       {"wall_s", wall_s}};
@@ -290,6 +291,10 @@ int run_optimize(const OptimizeArguments& arguments, const Globals& globals) {
         fmt::format("stopped after {} iterations before convergence", report.iterations));
     losses = true;
   }
+  if (report.untrusted_start)
+    run.log_warning(
+        "the edges between consecutive vertices do not determine all poses, so there is no trusted "
+        "start: the verdict on the edges is weak and may refuse many true ones");
   file.graph.poses = std::move(result.poses);
   graph::write_g2o(arguments.output, file);
   if (!arguments.verdicts.empty()) write_verdicts(arguments.verdicts, file, report);

@@ -112,6 +112,7 @@ PoseOptimizerReport report_of(const PoseGraph& graph, const Solution& solution) 
   report.gradient_norm = solution.solved.gradient_norm;
   report.cost = solution.solved.cost;
   report.inlier = solution.solved.inlier;
+  report.untrusted_start = solution.solved.untrusted_start;
   report.edge_chi2 = solution.edge_chi2;
   for (size_t k = 0; k < report.edge_chi2.size(); ++k)
     if (report.inlier[k]) report.chi2 += report.edge_chi2[k];

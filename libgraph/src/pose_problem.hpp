@@ -39,6 +39,7 @@ struct SolveReport {
   double gradient_norm = 0;
   std::vector<bool> inlier;  ///< empty: all
   double cost = 0;           ///< see PoseOptimizerReport
+  bool untrusted_start = false;
 };
 
 /// A pose graph as the solver sees it: parameters of every pose and a factor for every edge. The

@@ -108,6 +108,7 @@ SolveReport solve_gnc(const PoseGraph& graph, const std::vector<bool>& trusted, 
   }
   SolveReport report = settle(problem, trusted, limits, max_iterations, weights);
   report.iterations += iterations;
+  report.untrusted_start = !consensus;
   return report;
 }
 

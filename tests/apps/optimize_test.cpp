@@ -76,9 +76,22 @@ TEST_F(OptimizeCommand, JudgesEveryEdge) {
   EXPECT_EQ(json.at("outliers")[0].at("from"), 11);
   EXPECT_EQ(json.at("outliers")[0].at("to"), 17);
   EXPECT_EQ(json.at("inliers"), 11);
+  EXPECT_EQ(json.at("untrusted_start"), false);
   const std::string verdicts = file_text(path("v.csv"));
   EXPECT_THAT(verdicts, testing::StartsWith("edge,from,to,chi2,inlier\n0,10,11,"));
   EXPECT_THAT(verdicts, testing::ContainsRegex("\n10,11,17,[0-9.]+,0\n11,15,18,[0-9.e-]+,1\n$"));
+}
+
+// 0 --- 2 --- 1: the edge from 0 to 1 is missing, so that no chain of consecutive vertices is
+// there.
+TEST_F(OptimizeCommand, WarnsThatNothingIsTrusted) {
+  const std::string input =
+      file("in.g2o", "EDGE_SE2 0 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 1 1 0 0 1 0 0 1 0 1\n");
+  const CommandResult result =
+      run_hmtmap("optimize " + input + " --robust gnc --json -o " + path("out.g2o"));
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("no trusted start"));
+  EXPECT_EQ(result.json().at("untrusted_start"), true);
 }
 
 TEST_F(OptimizeCommand, KeepsTheBestOfSeveralStarts) {

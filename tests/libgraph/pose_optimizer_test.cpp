@@ -118,6 +118,7 @@ TEST(PoseOptimizer, GncRefusesTheFalseLoopAlone) {
     const PoseOptimizerResult result = optimize(line_with_false_loop(space), options);
     const std::vector<bool> expected = {true, true, true, true, true, true, false, true};
     EXPECT_EQ(result.report.inlier, expected);
+    EXPECT_FALSE(result.report.untrusted_start);
     EXPECT_LT(result.report.chi2, 1);
     EXPECT_GT(result.report.edge_chi2[6], 1000);
     EXPECT_NEAR(result.poses[5].translation.x(), 5, 0.05);
@@ -132,7 +133,9 @@ TEST(PoseOptimizer, GncWithoutTrustedEdgesRefusesTheFalseLoopAlone) {
   PoseOptimizerOptions options;
   options.robust = RobustMethod::gnc;
   options.trusted.assign(graph.edges.size(), false);
-  EXPECT_EQ(optimize(graph, options).report.inlier, expected);
+  const PoseOptimizerReport report = optimize(graph, options).report;
+  EXPECT_EQ(report.inlier, expected);
+  EXPECT_TRUE(report.untrusted_start);
 }
 
 TEST(PoseOptimizer, GncKeepsTheTrueLoopsAmongAsManyFalseOnes) {
