@@ -3,7 +3,10 @@
 #include "count_matches.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
+#include <span>
+#include <vector>
 
 namespace hmt::submap {
 namespace {
@@ -84,7 +87,23 @@ class Query {
   Eigen::Matrix3d spread_gate_;  ///< d^2 * covariance of the pose's displacement, once asked for
 };
 
-bool tree_has_match(Query& query, const SensedPoints& targets) {
+/// The queries of a box: how far they reach, for all of them at once.
+struct Region {
+  const Eigen::AlignedBox3f& box;
+  float square_deviation = 0;  ///< of a displacement by the pose, at most
+  float reach = 0;             ///< of any usable query, at most
+
+  Region(const Eigen::AlignedBox3f& queries, float radius_m, float gate, const PairGate& pair)
+      : box(queries),
+        square_deviation(pair.spread.max_trace(queries.center(), radius_m)),
+        reach(gate + pair.reach(std::min(square_deviation, pair.max_square_deviation_f))) {}
+};
+
+using Nodes = std::vector<const SensedPoints::Node*>;
+
+/// The leaves of the tree that the queries can match a target in.
+void find_near(const Region& queries, const SensedPoints& targets, Nodes& leaves) {
+  leaves.clear();
   // Halved by number the tree is less than 32 deep, below that less than 32 more: one sibling waits
   // on each level.
   std::array<int, 64> waiting;
@@ -93,58 +112,68 @@ bool tree_has_match(Query& query, const SensedPoints& targets) {
   while (top > 0) {
     const int node = waiting[--top];
     const SensedPoints::Node& n = targets.nodes()[static_cast<size_t>(node)];
-    if (!query.can_match(n.box, n.gate)) continue;
-    if (n.second != 0) {
-      waiting[top++] = n.second;
-      waiting[top++] = node + 1;
+    if (n.box.squaredExteriorDistance(queries.box) > queries.reach + n.gate) continue;
+    if (n.second == 0) {
+      leaves.push_back(&n);
       continue;
     }
-    for (const SensedPoint& target : targets.points(n.begin, n.end)) {
-      if (query.matches(target)) return true;
-    }
+    waiting[top++] = n.second;
+    waiting[top++] = node + 1;
   }
-  return false;
 }
 
 const SensedPoint& target_at(const SensedPoints& targets, int index) {
   return targets.points()[static_cast<size_t>(index)];
 }
 
-bool has_match(Query& query, const SensedPoints& targets, const NearestGrid* grid) {
-  if (!query.usable()) return false;
-  if (grid != nullptr) {
-    if (grid->bound({query.position(), query.position()}) > query.reach()) return false;
-    const int nearest = grid->nearest(query.position());
-    if (nearest >= 0 && query.matches(target_at(targets, nearest))) return true;
+bool has_match(Query& query, const SensedPoints& targets, const Nodes& near) {
+  for (const SensedPoints::Node* leaf : near) {
+    if (!query.can_match(leaf->box, leaf->gate)) continue;
+    for (const SensedPoint& target : targets.points(leaf->begin, leaf->end)) {
+      if (query.matches(target)) return true;
+    }
   }
-  return tree_has_match(query, targets);
+  return false;
 }
 
 enum class Verdict { all_match, none_matches, open };
 
 /// Decides for the queries of a leaf at once where one target is within all their gates or none is
-/// within any. `max_pose_gate`: d^2 times the mean square displacement of any usable query.
-Verdict judge(const SensedPoints::Leaf& leaf, const SensedPoints& targets, const PairGate& pair,
-              float max_pose_gate, const NearestGrid& grid) {
-  const float bound = grid.bound(leaf.box);
-  if (bound > leaf.max_gate + max_pose_gate) return Verdict::none_matches;
-  const Eigen::Vector3f center = leaf.box.center();
-  const float square_deviation = pair.spread.max_trace(center, leaf.radius_m);
-  if (bound > leaf.max_gate + pair.reach(square_deviation)) return Verdict::none_matches;
-  if (square_deviation > pair.max_square_deviation_f) return Verdict::open;
-  const int nearest = grid.nearest(center);
-  if (nearest < 0) return Verdict::open;
-  const SensedPoint& target = target_at(targets, nearest);
-  const Eigen::Vector3f farthest =
-      (target.position - leaf.box.min()).cwiseMax(leaf.box.max() - target.position);
-  return pair.surely_matches(farthest, leaf.min_gate + target.gate) ? Verdict::all_match
-                                                                    : Verdict::open;
+/// within any.
+Verdict judge(const SensedPoints::Leaf& leaf, const Region& queries, const SensedPoints& targets,
+              const PairGate& pair, const NearestGrid& grid) {
+  const int nearest = grid.at(leaf.box.center()).nearest;
+  if (nearest >= 0 && queries.square_deviation <= pair.max_square_deviation_f) {
+    const SensedPoint& target = target_at(targets, nearest);
+    const Eigen::Vector3f farthest =
+        (target.position - leaf.box.min()).cwiseMax(leaf.box.max() - target.position);
+    if (pair.surely_matches(farthest, leaf.min_gate + target.gate)) return Verdict::all_match;
+  }
+  return grid.can_reach(leaf.box, queries.reach) ? Verdict::open : Verdict::none_matches;
 }
 
-float max_pose_gate(const SensedPoints& queries, const PairGate& pair) {
-  const Eigen::AlignedBox3f& box = queries.nodes().front().box;
-  const float square_deviation = pair.spread.max_trace(box.center(), box.sizes().norm() / 2);
-  return pair.reach(std::min(pair.max_square_deviation_f, square_deviation));
+/// Counts the queries of one leaf that match, one by one.
+int count_one_by_one(std::span<const SensedPoint> points, const Region& region,
+                     const SensedPoints& targets, const PairGate& pair, const NearestGrid* grid,
+                     Nodes& near) {
+  int count = 0;
+  bool is_known = false;
+  for (const SensedPoint& point : points) {
+    Query query(point, pair);
+    if (!query.usable()) continue;
+    if (grid != nullptr) {
+      const NearestGrid::Place place = grid->at(query.position());
+      if (place.bound > query.reach()) continue;
+      if (place.nearest >= 0 && query.matches(target_at(targets, place.nearest))) {
+        ++count;
+        continue;
+      }
+    }
+    if (!is_known) find_near(region, targets, near);
+    is_known = true;
+    if (has_match(query, targets, near)) ++count;
+  }
+  return count;
 }
 
 }  // namespace
@@ -154,19 +183,22 @@ int count_matches(const SensedPoints& queries, const SensedPoints& targets,
                   const NearestGrid* grid) {
   if (targets.size() == 0 || queries.size() == 0) return 0;
   const PairGate pair(spread, options);
-  const float widest = max_pose_gate(queries, pair);
+  Nodes near;
+  near.reserve(targets.leaves().size());
   int count = 0;
   for (const SensedPoints::Group& group : queries.groups()) {
-    if (grid != nullptr && grid->coarse_bound(group.box) > group.gate + widest) continue;
+    if (grid != nullptr &&
+        !grid->can_reach(group.box, Region(group.box, group.radius_m, group.gate, pair).reach)) {
+      continue;
+    }
     for (const SensedPoints::Leaf& leaf : queries.leaves(group)) {
+      const Region region(leaf.box, leaf.radius_m, leaf.max_gate, pair);
       const Verdict verdict =
-          grid != nullptr ? judge(leaf, targets, pair, widest, *grid) : Verdict::open;
+          grid != nullptr ? judge(leaf, region, targets, pair, *grid) : Verdict::open;
       if (verdict == Verdict::all_match) count += leaf.end - leaf.begin;
       if (verdict != Verdict::open) continue;
-      for (const SensedPoint& point : queries.points(leaf.begin, leaf.end)) {
-        Query query(point, pair);
-        if (has_match(query, targets, grid)) ++count;
-      }
+      count +=
+          count_one_by_one(queries.points(leaf.begin, leaf.end), region, targets, pair, grid, near);
     }
   }
   return count;

@@ -15,6 +15,9 @@ constexpr double kMaxCells = 1 << 20;
 // What the grid allows for the uncertainty of the pose.
 constexpr float kPoseGate_m = 0.5F;
 
+// A place at the edge of a cell may be rounded into its neighbour.
+constexpr float kRounding_m = 1e-4F;
+
 /// The gate that the given share of the points do not exceed.
 float gate_quantile(const SensedPoints& points, double share) {
   std::vector<float> gates;
@@ -52,11 +55,11 @@ void NearestGrid::choose_cells(const SensedPoints& targets) {
 
 void NearestGrid::rebuild(const SensedPoints& targets) {
   limit_.setZero();
-  max_reach_ = level_m2_ = 0;
+  max_reach_ = 0;
   if (targets.size() == 0) return;
   choose_cells(targets);
   const size_t count = index(0, 0, size_[2]);
-  exact_bound_.assign(count, max_reach_);
+  bound_.assign(count, max_reach_);
   center_distance_.assign(count, std::numeric_limits<float>::max());
   nearest_.assign(count, -1);
   column_center_.resize(static_cast<size_t>(size_[0]));
@@ -65,34 +68,12 @@ void NearestGrid::rebuild(const SensedPoints& targets) {
     const int middle = (leaf.begin + leaf.end) / 2;
     insert(leaf, middle, targets.points()[static_cast<size_t>(middle)]);
   }
-  round_bounds();
-}
-
-void NearestGrid::round_bounds() {
-  for (size_t axis = 0; axis < 3; ++axis) {
-    coarse_size_[axis] = (size_[axis] + kCoarse - 1) / kCoarse;
-  }
-  coarse_bound_.assign(index(0, 0, coarse_size_[2], coarse_size_), kLevels);
-  bound_.resize(exact_bound_.size());
-  level_m2_ = max_reach_ / kLevels;
-  const float levels_per_m2 = kLevels / max_reach_;
-  size_t cell = 0;
-  for (int z = 0; z < size_[2]; ++z) {
-    for (int y = 0; y < size_[1]; ++y) {
-      uint8_t* const coarse =
-          coarse_bound_.data() + index(0, y / kCoarse, z / kCoarse, coarse_size_);
-      for (int x = 0; x < size_[0]; ++x, ++cell) {
-        // Below zero, inside a gate, everything can match.
-        bound_[cell] = static_cast<uint8_t>(std::max(0.0F, exact_bound_[cell] * levels_per_m2));
-        coarse[x / kCoarse] = std::min(coarse[x / kCoarse], bound_[cell]);
-      }
-    }
-  }
 }
 
 void NearestGrid::insert(const SensedPoints::Leaf& leaf, int target, const SensedPoint& point) {
   const float reach = std::sqrt(leaf.max_gate + max_reach_);
-  const Eigen::Vector3f low = leaf.box.min() - origin_, high = leaf.box.max() - origin_;
+  const Eigen::Vector3f low = (leaf.box.min() - origin_).array() - kRounding_m;
+  const Eigen::Vector3f high = (leaf.box.max() - origin_).array() + kRounding_m;
   const Eigen::Vector3f place = point.position - origin_;
   std::array<int, 3> first, last;
   for (size_t a = 0; a < 3; ++a) {
@@ -125,7 +106,7 @@ void NearestGrid::insert(const SensedPoints::Leaf& leaf, int target, const Sense
 }
 
 void NearestGrid::fill_row(size_t at, size_t columns, int target, float center, float gap) {
-  float* const bound = exact_bound_.data() + at;
+  float* const bound = bound_.data() + at;
   float* const distance = center_distance_.data() + at;
   int* const nearest = nearest_.data() + at;
   const float* const column_center = column_center_.data();

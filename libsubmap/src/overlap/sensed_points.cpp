@@ -70,7 +70,8 @@ void SensedPoints::make_nodes(int begin, int end, bool is_grouped) {
   nodes_.push_back(node);
   const Leaf leaf = leaf_of(node, points(begin, end));
   const bool is_group = !is_grouped && (is_small(leaf) || end - begin <= kGroupSize);
-  if (is_group) groups_.push_back({node.box, node.gate, static_cast<int>(leaves_.size()), 0});
+  if (is_group)
+    groups_.push_back({node.box, leaf.radius_m, node.gate, static_cast<int>(leaves_.size()), 0});
   if (is_small(leaf)) {
     leaves_.push_back(leaf);
   } else {

@@ -45,7 +45,8 @@ class SensedPoints {
   /// Leaves that lie together: those from begin_leaf to end_leaf - 1.
   struct Group {
     Eigen::AlignedBox3f box;
-    float gate = 0;  ///< the largest of theirs
+    float radius_m = 0;  ///< half its diagonal
+    float gate = 0;      ///< the largest of theirs
     int begin_leaf = 0;
     int end_leaf = 0;
   };
