@@ -71,6 +71,10 @@ submap::Run make_run(const Globals& globals) {
     printer->end_line();
     spdlog::info(text);
   };
+  run.detail = [printer](const std::string& text) {
+    printer->end_line();
+    spdlog::debug(text);
+  };
   run.warn = [printer](const std::string& text) {
     printer->end_line();
     spdlog::warn(text);

@@ -35,7 +35,7 @@ void add_globals(CLI::App& app, Globals& globals) {
   app.add_flag("--json", globals.json, "Print one JSON object on stdout; messages go to stderr");
   app.add_option("--threads", globals.threads, "Threads to use; 0 takes every core")
       ->check(CLI::Range(0, 1024));
-  app.add_flag("-v,--verbose", globals.verbose, "Messages with the time of day");
+  app.add_flag("-v,--verbose", globals.verbose, "More messages, with the time of day");
   app.add_flag("-q,--quiet", globals.quiet, "Only warnings and errors");
   const std::map<std::string, ProgressMode> modes = {{"auto", ProgressMode::automatic},
                                                      {"plain", ProgressMode::plain},
@@ -51,6 +51,7 @@ void set_up_messages(const Globals& globals) {
   auto logger =
       std::make_shared<spdlog::logger>("hmtmap", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_pattern(globals.verbose ? "%H:%M:%S.%e %^%l%$: %v" : "%^%l%$: %v");
+  if (globals.verbose) logger->set_level(spdlog::level::debug);
   if (globals.quiet) logger->set_level(spdlog::level::warn);
   spdlog::set_default_logger(logger);
 }

@@ -146,9 +146,10 @@ graph::Labels partition_all(const Track& track, const graph::WeightedGraph& over
   return partition_in_sequence(
       track.space, overlap, constraints, options, [&](int keyframe, const AreaEvent& event) {
         const bool entered = event.kind == AreaEvent::Kind::entered;
-        run.log_info(stage + ": keyframe " + std::to_string(keyframe) +
-                     (entered ? ": entered area " : ": closed area ") + std::to_string(event.area) +
-                     " of " + std::to_string(event.keyframes.size()) + " keyframes");
+        run.log_detail(stage + ": keyframe " + std::to_string(keyframe) +
+                       (entered ? ": entered area " : ": closed area ") +
+                       std::to_string(event.area) + " of " +
+                       std::to_string(event.keyframes.size()) + " keyframes");
       });
 }
 

@@ -22,6 +22,7 @@ struct Run {
   int threads = 1;
   std::function<void(const Progress&)> progress;
   std::function<void(const std::string&)> info;
+  std::function<void(const std::string&)> detail;  ///< one a step rather than one a stage
   std::function<void(const std::string&)> warn;
   /// Asked now and then; where it returns true the stage throws Interrupted.
   std::function<bool()> stop;
@@ -31,6 +32,9 @@ struct Run {
   }
   void log_info(const std::string& text) const {
     if (info) info(text);
+  }
+  void log_detail(const std::string& text) const {
+    if (detail) detail(text);
   }
   void log_warning(const std::string& text) const {
     if (warn) warn(text);
