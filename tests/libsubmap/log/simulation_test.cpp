@@ -175,7 +175,7 @@ TEST(Simulation, NamesTheWorldsItKnows) {
     Simulation({"moon", 1, 1});
     FAIL() << "not refused";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("'moon'; there are building corridor rooms"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("'moon'; there are building corridor ring rooms"));
   }
   EXPECT_THROW(Simulation({"rooms", 1, 0}), InputError);
 }
