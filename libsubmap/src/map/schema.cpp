@@ -11,7 +11,7 @@ namespace hmt::submap {
 namespace {
 
 constexpr int64_t kApplicationId = 0x484d5431;  // "HMT1"
-constexpr int64_t kVersion = 1;
+constexpr int64_t kVersion = 2;
 
 struct Table {
   const char* name;
@@ -87,7 +87,11 @@ void check_schema(Database& database) {
     throw graph::InputError(path + ": map file version " + std::to_string(version) +
                             " is newer than this program, which knows version " +
                             std::to_string(kVersion) + "; use a newer hmtmap");
-  if (version != kVersion) database.fail_damaged("version " + std::to_string(version));
+  if (version < 1) database.fail_damaged("version " + std::to_string(version));
+  if (version < kVersion)
+    throw graph::InputError(path + ": map file version " + std::to_string(version) +
+                            " was written by an older program, this one knows version " +
+                            std::to_string(kVersion) + "; make the map again from its log");
   Statement find(database, "SELECT sql FROM sqlite_schema WHERE name = ?");
   for (const Table& table : kTables) {
     find.bind_text(1, table.name);

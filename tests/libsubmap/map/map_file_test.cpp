@@ -301,7 +301,7 @@ void patch(const std::filesystem::path& path, std::streamoff at, const std::stri
 }
 
 // The SQLite header has user_version at byte 60 and application_id at byte 68, big endian.
-TEST(MapFile, NamesAnotherApplicationAndANewerVersion) {
+TEST(MapFile, NamesAnotherApplicationAndOtherVersions) {
   const TemporaryFolder folder;
   write_sample_map(folder / "a.hmt");
   write_sample_map(folder / "b.hmt");
@@ -309,6 +309,9 @@ TEST(MapFile, NamesAnotherApplicationAndANewerVersion) {
   EXPECT_THAT(error_of([&] { MapFile::open(folder / "a.hmt"); }), HasSubstr("not a map file"));
   patch(folder / "b.hmt", 60, std::string("\0\0\0\x63", 4));
   EXPECT_THAT(error_of([&] { MapFile::open(folder / "b.hmt"); }), HasSubstr("version 99 is newer"));
+  patch(folder / "b.hmt", 60, std::string("\0\0\0\x01", 4));
+  EXPECT_THAT(error_of([&] { MapFile::open(folder / "b.hmt"); }),
+              HasSubstr("version 1 was written by an older program"));
 }
 
 /// Reads all of a map; true if it was read, false if it was refused with an InputError.
