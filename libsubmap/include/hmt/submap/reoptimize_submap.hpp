@@ -16,11 +16,10 @@ struct SubmapReoptimization {
   double largest_turn_rad = 0;
 };
 
-/// Optimizes one submap of a finished map anew, on its own: by the constraints inside it, in its
-/// own frame, without the pull of its neighbors; then its OctoMap is built again. Nothing else of
-/// the map changes: not the other submaps, not where any submap stands. Throws InputError for a
-/// submap that is not there or an unfinished map.
-SubmapReoptimization reoptimize_submap(const std::filesystem::path& map, int submap,
-                                       const Run& run);
+/// Optimizes submap `id` of the finished map at `path` anew, on its own: by the constraints inside
+/// it, in its own frame, without the pull of its neighbors; then its OctoMap is built again.
+/// Nothing else of the map changes: not the other submaps, not where any submap stands. Throws
+/// InputError for a submap that is not there or an unfinished map.
+SubmapReoptimization reoptimize_submap(const std::filesystem::path& path, int id, const Run& run);
 
 }  // namespace hmt::submap
