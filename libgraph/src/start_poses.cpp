@@ -19,7 +19,8 @@ Start make_start(const PoseGraph& graph, Initialization kind, const Chi2OfPoses&
   std::optional<std::vector<Pose>> poses;
   if (kind == Initialization::chordal) poses = chordal_poses(graph);
   if (kind == Initialization::spanning_tree) poses = spanning_tree_poses(graph, held_nodes(graph));
-  Start start{poses ? kind : Initialization::given, poses ? std::move(*poses) : graph.poses, 0};
+  Start start{Initialization::given, graph.poses, 0};
+  if (poses) start = {kind, std::move(*poses), 0};
   start.chi2 = chi2_of(start.poses);
   return start;
 }
