@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <compare>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,7 +22,10 @@ struct Sensor {
   SensorKind kind = SensorKind::range;
   int number = 0;
 
-  auto operator<=>(const Sensor&) const = default;
+  bool operator==(const Sensor&) const = default;
+  bool operator<(const Sensor& other) const {
+    return std::pair(kind, number) < std::pair(other.kind, other.number);
+  }
 };
 
 /// A sensor that a keyframe has a reading of, and the points in it.
