@@ -190,7 +190,7 @@ TEST_F(RecordingFile, OtherFilesAreRefusedWithTheReason) {
   };
   EXPECT_THAT(reason("#ROSRECORD V1.2\n"), HasSubstr("another format (#ROSRECORD V1.2)"));
   EXPECT_THAT(reason("SQLite format 3\0 and nothing more"), HasSubstr("no ROS 1 bag"));
-  EXPECT_THAT(reason(std::string("SQLite format 3\0 and nothing more", 40)), HasSubstr("damaged"));
+  EXPECT_THAT(reason(std::string("SQLite format 3\0 and nothing more", 33)), HasSubstr("damaged"));
   EXPECT_THAT(reason("x"), HasSubstr("no ROS 1 bag"));
 }
 
