@@ -211,8 +211,11 @@ Action add_partition(CLI::App& command) {
       ->required();
   add_method_options(command, *arguments);
   add_table_options(command, *arguments);
-  command.add_option("-o,--output", arguments->labels_file,
-                     "Write the group of every node, one a line, to this file");
+  command
+      .add_option("-o,--output", arguments->labels_file,
+                  "Write the group of every node, one a line, to this file")
+      ->excludes("--sweep-tau")
+      ->excludes("--compare");
   command.add_flag("--force", arguments->force, "Overwrite files that exist");
   return [arguments](const Globals& globals) { return run_partition(*arguments, globals); };
 }

@@ -9,27 +9,10 @@
 #include <cmath>
 #include <limits>
 
-// Of libgomp, which CHOLMOD is linked to; declared here because Clang comes without its header.
-extern "C" {
-int omp_get_max_active_levels();
-void omp_set_max_active_levels(int levels);
-}
+#include "openmp_guard.hpp"
 
 namespace hmt::graph {
 namespace {
-
-// CHOLMOD opens an OpenMP team of four in its inner loops whatever number of threads was asked for;
-// on the small fronts of a graph the team costs more than it saves.
-class NoInnerThreads {
- public:
-  NoInnerThreads() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
-  ~NoInnerThreads() { omp_set_max_active_levels(before_); }
-  NoInnerThreads(const NoInnerThreads&) = delete;
-  NoInnerThreads& operator=(const NoInnerThreads&) = delete;
-
- private:
-  int before_;
-};
 
 // Below this size a dense factor beats the overhead of a sparse one.
 constexpr int kDenseSize = 160;
@@ -72,7 +55,7 @@ class SparseFactor : public LaplacianFactor {
     common_.error_handler = nullptr;
     common_.nmethods = 1;
     common_.method[0].ordering = CHOLMOD_AMD;
-    const NoInnerThreads serial;
+    const OpenMpGuard serial;
     cholmod_sparse* matrix = lower_triangle(graph, shift);
     if (matrix == nullptr) return;
     factor_ = cholmod_analyze(matrix, &common_);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "range_scan.hpp"
+#include "report_book.hpp"
 #include "text_fields.hpp"
 
 namespace hmt::submap {
@@ -50,11 +51,6 @@ Pose median_pose(const std::vector<Pose>& poses) {
   return Pose::planar(median(parts[0]), median(parts[1]), yaw_0 + median(parts[2]));
 }
 
-std::string first_loss(const LogReport& report) {
-  const std::string& what = report.losses.begin()->first;
-  return report.first_places.at(what) + ": " + what;
-}
-
 }  // namespace
 
 CarmenReader::CarmenReader(const std::filesystem::path& path)
@@ -64,7 +60,7 @@ CarmenReader::CarmenReader(const std::filesystem::path& path)
   if (ahead_.empty())
     throw InputError(path.string() + ": " + std::to_string(lines_.line_number()) +
                      " lines and no usable laser scan (FLASER or ROBOTLASER1)" +
-                     (report_.losses.empty() ? "" : "; first loss: " + first_loss(report_)));
+                     first_loss(report_));
   learn_odometry();
   learn_mounts();
 }

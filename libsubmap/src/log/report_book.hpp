@@ -22,4 +22,11 @@ inline void add_loss(LogReport& report, const std::string& what, const std::stri
   report.first_places.try_emplace(what, place);
 }
 
+/// For the end of an error text: a loss and where it was first, or nothing where none was counted.
+inline std::string first_loss(const LogReport& report) {
+  if (report.losses.empty()) return {};
+  const std::string& what = report.losses.begin()->first;
+  return "; first loss: " + report.first_places.at(what) + ": " + what;
+}
+
 }  // namespace hmt::submap

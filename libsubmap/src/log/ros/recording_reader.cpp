@@ -53,12 +53,7 @@ RecordingReader::RecordingReader(const std::filesystem::path& path, const LogOpt
   while (ahead_.size() < wanted && read_message()) {
   }
   if (!ahead_.empty()) return;
-  std::string reason = path.string() + ": no usable scan";
-  if (!report_.losses.empty()) {
-    const std::string& what = report_.losses.begin()->first;
-    reason += "; " + report_.first_places.at(what) + ": " + what;
-  }
-  throw InputError(reason);
+  throw InputError(path.string() + ": no usable scan" + first_loss(report_));
 }
 
 std::optional<Observation> RecordingReader::next() {
