@@ -10,6 +10,7 @@
 #include "console.hpp"
 #include "hmt/graph/input_error.hpp"
 #include "hmt/submap/export/evaluation.hpp"
+#include "hmt/submap/export/landmarks_file.hpp"
 #include "hmt/submap/export/map_quality.hpp"
 #include "hmt/submap/map/map_file.hpp"
 #include "trajectory_input.hpp"
@@ -24,6 +25,7 @@ struct Arguments {
   std::string relations;
   std::string reference;
   bool map_quality = false;
+  std::string landmarks;
 };
 
 void add_relations(const submap::RelationsError& error, nlohmann::ordered_json& json,
@@ -100,6 +102,21 @@ void add_map_quality(const Arguments& arguments, nlohmann::ordered_json& json, s
   text += to_text("by map", quality);
 }
 
+void add_landmarks(const submap::LandmarkError& error, nlohmann::ordered_json& json,
+                   std::string& text) {
+  json["true_landmarks"] = error.true_landmarks;
+  json["landmarks_matched"] = error.matched;
+  json["landmark_rmse_m"] = error.rmse_m;
+  json["landmark_max_m"] = error.max_m;
+  text += fmt::format("landmarks    {} of {} matched by name, {:.4f} m rmse, {:.4f} m max\n",
+                      error.matched, error.true_landmarks, error.rmse_m, error.max_m);
+}
+
+submap::HybridMap load_landmark_map(const std::string& path) {
+  if (!is_map_file(path)) throw graph::InputError(path + ": only a map has landmarks");
+  return submap::MapFile::open(path).load_map();
+}
+
 int evaluate(const Arguments& arguments, const Globals& globals) {
   const auto trajectory = load_trajectory(arguments.trajectory);
   nlohmann::ordered_json json;
@@ -113,6 +130,10 @@ int evaluate(const Arguments& arguments, const Globals& globals) {
     add_reference(submap::evaluate_trajectory(trajectory, submap::read_tum(arguments.reference)),
                   json, text);
   if (arguments.map_quality) add_map_quality(arguments, json, text);
+  if (!arguments.landmarks.empty())
+    add_landmarks(submap::evaluate_landmarks(load_landmark_map(arguments.trajectory),
+                                             submap::read_true_landmarks(arguments.landmarks)),
+                  json, text);
   print_result(globals, json, text);
   return kDone;
 }
@@ -126,11 +147,14 @@ Action add_evaluate(CLI::App& command) {
   CLI::App* truth = command.add_option_group("truth");
   truth->add_option("--relations", arguments->relations,
                     "True relative poses: stamp1 stamp2 x y z roll pitch yaw [Kuemmerle 2009]");
-  truth->add_option("--reference", arguments->reference, "Reference trajectory, a TUM file");
+  truth->add_option("--reference", arguments->reference,
+                    "Reference trajectory: a TUM file, or lines of stamp x y heading");
+  truth->add_option("--landmarks", arguments->landmarks,
+                    "True landmarks of a planar map: lines of name x y");
   truth->add_flag("--map-quality", arguments->map_quality,
                   "How thick the walls of the map are and how many cells its beams fill; with "
                   "--reference also what the same scans make at the reference's poses");
-  truth->require_option(1, 3);
+  truth->require_option(1, 4);
   return [arguments](const Globals& globals) { return evaluate(*arguments, globals); };
 }
 

@@ -23,6 +23,10 @@ void add_log_options(CLI::App& command, submap::LogOptions& options) {
           "--odometry", options.odometry_file,
           "Of a folder of clouds: their poses by odometry, TUM or KITTI, line N for cloud N")
       ->type_name("FILE");
+  command
+      .add_option("--robot", options.robot,
+                  "Of an MRCLAM folder with the logs of several robots: which one")
+      ->check(CLI::NonNegativeNumber);
 }
 
 }  // namespace hmt::apps

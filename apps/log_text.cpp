@@ -54,6 +54,14 @@ nlohmann::ordered_json log_json(const submap::LogSummary& summary) {
                                  {"largest_jump_m", summary.largest_jump_m}};
   json["sensors"] = nlohmann::ordered_json::array();
   for (const auto& sensor : summary.sensors) json["sensors"].push_back(sensor_json(sensor));
+  json["landmark_sensors"] = nlohmann::ordered_json::array();
+  for (const auto& sensor : summary.landmark_sensors)
+    json["landmark_sensors"].push_back({{"sensor", sensor.sensor},
+                                        {"readings", sensor.readings},
+                                        {"sightings", sensor.sightings},
+                                        {"unnamed", sensor.unnamed},
+                                        {"landmarks", sensor.landmarks},
+                                        {"max_range_m", sensor.max_range_m}});
   return json;
 }
 
@@ -73,6 +81,12 @@ std::string log_text(const submap::LogSummary& summary) {
         sensor.beam_step_rad * kDegPerRad, sensor.max_range_m, 100 * miss_share(sensor),
         sensor.T_robot_sensor.translation.x(), sensor.T_robot_sensor.translation.y(),
         sensor.T_robot_sensor.yaw_rad() * kDegPerRad);
+  for (const auto& sensor : summary.landmark_sensors)
+    text += fmt::format(
+        "  landmarks {}   {} sightings in {} readings, {} of them unnamed; {} names; up to {:.4g} "
+        "m\n",
+        sensor.sensor, sensor.sightings, sensor.readings, sensor.unnamed, sensor.landmarks,
+        sensor.max_range_m);
   return text;
 }
 

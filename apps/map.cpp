@@ -38,7 +38,10 @@ nlohmann::ordered_json summary(const submap::HybridMap& map) {
           {"submaps", map.submaps.size()},
           {"links", map.links.size()},
           {"loop_closures", std::count_if(map.loops.begin(), map.loops.end(), accepted)},
+          {"landmarks", map.landmarks.size()},
+          {"sightings", map.sightings.size()},
           {"information_loss", map.information_loss},
+          {"landmark_information_loss", map.landmark_information_loss},
           {"chi2_hybrid", map.division.chi2_hybrid},
           {"chi2_refined", map.division.chi2_refined},
           {"chi2_flat", map.division.chi2_flat}};

@@ -47,7 +47,10 @@ void add_map(const submap::HybridMap& map, Json& json) {
   json["keyframes"] = map.track.keyframes.size();
   json["constraints"] = map.constraints.size();
   json["overlap_arcs"] = map.overlap.size();
+  json["landmarks"] = map.landmarks.size();
+  json["sightings"] = map.sightings.size();
   json["information_loss"] = map.information_loss;
+  json["landmark_information_loss"] = map.landmark_information_loss;
   json["chi2_initial"] = map.chi2_initial;
   json["chi2"] = map.chi2;
   json["chi2_hybrid"] = map.division.chi2_hybrid;
@@ -66,6 +69,9 @@ std::string map_text(const submap::HybridMap& map) {
       map.track.observations.size(), map.track.keyframes.size(), map.constraints.size(),
       map.submaps.size(), map.links.size(), map.information_loss, map.division.chi2_hybrid,
       map.division.chi2_refined, map.division.chi2_flat);
+  if (!map.landmarks.empty())
+    text += fmt::format("landmarks          {}\nsightings          {}\n  their loss       {:.4f}\n",
+                        map.landmarks.size(), map.sightings.size(), map.landmark_information_loss);
   for (const auto& [verdict, count] : submap::count_verdicts(map))
     text += fmt::format("loops {:<13}{}\n", verdict, count);
   text += "submap  keyframes  observations  first stamp      extent\n";

@@ -49,8 +49,8 @@ PartitionInput from_map(const submap::HybridMap& map) {
   std::iota(all.begin(), all.end(), 0);
   std::vector<graph::Pose> T_world_keyframe;
   for (const int k : all) T_world_keyframe.push_back(submap::world_pose(map, k));
-  input.information.emplace(
-      submap::keyframe_graph(map.track.space, all, T_world_keyframe, map.constraints));
+  input.information.emplace(submap::keyframe_graph(map.track.space, all, T_world_keyframe,
+                                                   map.constraints, map.sightings));
   for (size_t k = 0; k < n; ++k) {
     const size_t last = k > 0 ? k - 1 : 0;
     const double way_m =

@@ -112,9 +112,10 @@ class Grower {
       : graph_(graph), trusted_(trusted), limit_(limit), threads_(threads), problem_(problem) {}
 
   std::optional<Consensus> run() {
+    if (!graph_.point_edges.empty()) return std::nullopt;
     accepted_ = trusted_;
     const PoseGraph backbone = subgraph(graph_, trusted_, graph_.poses);
-    problem_.set_poses(spanning_tree_poses(backbone, held_nodes(graph_)));
+    problem_.set_placement({spanning_tree_poses(backbone, held_nodes(graph_)), {}});
     if (connected_components(backbone) != connected_components(graph_)) return std::nullopt;
     solve();
     log_volume_ =
@@ -142,8 +143,8 @@ class Grower {
   }
 
   void solve() {
-    problem_.solve(to_weights(accepted_), 0, kIterationsPerRound);
-    chi2_ = problem_.edge_chi2();
+    problem_.solve(to_weights(accepted_), false, kIterationsPerRound);
+    chi2_ = problem_.factor_chi2();
   }
 
   /// The accepted edges that still agree, and the others that pass the gate.

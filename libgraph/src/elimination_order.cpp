@@ -7,16 +7,10 @@
 
 namespace hmt::graph {
 
-std::vector<int> elimination_order(const PoseGraph& graph, const std::vector<bool>& held) {
-  std::vector<int> free_index(held.size(), -1);
-  int count = 0;
-  for (size_t node = 0; node < held.size(); ++node)
-    if (!held[node]) free_index[node] = count++;
+std::vector<int> elimination_order(int count, const std::vector<std::pair<int, int>>& couplings) {
   std::vector<Eigen::Triplet<double>> pattern;
-  pattern.reserve(2 * graph.edges.size() + held.size());
-  for (const PoseGraphEdge& edge : graph.edges) {
-    const int a = free_index[static_cast<size_t>(edge.from)];
-    const int b = free_index[static_cast<size_t>(edge.to)];
+  pattern.reserve(2 * couplings.size() + static_cast<size_t>(count));
+  for (const auto& [a, b] : couplings) {
     if (a < 0 || b < 0) continue;
     pattern.emplace_back(a, b, 1.0);
     pattern.emplace_back(b, a, 1.0);
@@ -26,11 +20,26 @@ std::vector<int> elimination_order(const PoseGraph& graph, const std::vector<boo
   adjacency.setFromTriplets(pattern.begin(), pattern.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> old_of_new;
   Eigen::AMDOrdering<int>()(adjacency, old_of_new);
-  std::vector<int> new_of_old(static_cast<size_t>(count));
-  for (int i = 0; i < count; ++i) new_of_old[static_cast<size_t>(old_of_new.indices()(i))] = i;
-  for (int& index : free_index)
-    if (index >= 0) index = new_of_old[static_cast<size_t>(index)];
-  return free_index;
+  return {old_of_new.indices().data(), old_of_new.indices().data() + count};
+}
+
+std::vector<int> elimination_order(const PoseGraph& graph, const std::vector<bool>& held) {
+  std::vector<int> unknown(held.size(), -1);
+  int count = 0;
+  for (size_t node = 0; node < held.size(); ++node)
+    if (!held[node]) unknown[node] = count++;
+  std::vector<std::pair<int, int>> couplings;
+  couplings.reserve(graph.edges.size());
+  for (const PoseGraphEdge& edge : graph.edges)
+    couplings.emplace_back(unknown[static_cast<size_t>(edge.from)],
+                           unknown[static_cast<size_t>(edge.to)]);
+  const std::vector<int> order = elimination_order(count, couplings);
+  std::vector<int> position(order.size());
+  for (size_t i = 0; i < order.size(); ++i)
+    position[static_cast<size_t>(order[i])] = static_cast<int>(i);
+  for (int& index : unknown)
+    if (index >= 0) index = position[static_cast<size_t>(index)];
+  return unknown;
 }
 
 }  // namespace hmt::graph

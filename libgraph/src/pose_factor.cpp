@@ -77,6 +77,14 @@ PlanarChart::Vector PlanarChart::linearize(const Measurement& measured, const do
   return r;
 }
 
+PlanarChart::PointVector PlanarChart::linearize_point(const double* node, const double* point,
+                                                      PointByPose& J_node, PointMatrix& J_point) {
+  J_point << std::cos(node[2]), std::sin(node[2]), -std::sin(node[2]), std::cos(node[2]);
+  const PointVector local = J_point * PointVector(point[0] - node[0], point[1] - node[1]);
+  J_node << -J_point, PointVector(local.y(), -local.x());
+  return local;
+}
+
 SpatialChart::Measurement::Measurement(const Pose& T_from_to)
     : R_transposed(T_from_to.rotation_matrix().transpose()),
       translation(T_from_to.translation),
@@ -125,6 +133,14 @@ SpatialChart::Vector SpatialChart::linearize(const Measurement& measured, const 
   return r;
 }
 
+SpatialChart::PointVector SpatialChart::linearize_point(const double* node, const double* point,
+                                                        PointByPose& J_node, PointMatrix& J_point) {
+  J_point = ConstQuaternion(node + 3).conjugate().toRotationMatrix();
+  const PointVector local = J_point * (ConstVector(point) - ConstVector(node));
+  J_node << -J_point, skew(local);
+  return local;
+}
+
 template <class Chart>
 Eigen::Matrix<double, Chart::kTangent, Chart::kTangent> chart_block(const Matrix6d& matrix) {
   constexpr auto rows = tangent_rows<Chart>();
@@ -150,6 +166,14 @@ EdgeFactor<Chart>::EdgeFactor(const PoseGraphEdge& edge)
     : measured_(edge.T_from_to),
       whitening_(whitening_of<Matrix>(chart_block<Chart>(edge.information))) {}
 
+template <class Chart>
+PointFactor<Chart>::PointFactor(const PointEdge& edge)
+    : measured_(edge.p_node.head<Chart::kPoint>()),
+      whitening_(
+          whitening_of<Matrix>(edge.information.topLeftCorner<Chart::kPoint, Chart::kPoint>())) {}
+
+template class PointFactor<PlanarChart>;
+template class PointFactor<SpatialChart>;
 template class EdgeFactor<PlanarChart>;
 template class EdgeFactor<SpatialChart>;
 template Eigen::Matrix<double, 3, 3> chart_block<PlanarChart>(const Matrix6d&);

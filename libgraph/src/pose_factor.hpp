@@ -17,6 +17,7 @@ namespace hmt::graph {
 struct PlanarChart {
   static constexpr int kParameters = 3;
   static constexpr int kTangent = 3;
+  static constexpr int kPoint = 2;  ///< numbers of a point
   using Vector = Eigen::Vector3d;
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
@@ -33,6 +34,13 @@ struct PlanarChart {
   static Vector error(const Measurement& measured, const double* from, const double* to);
   static Vector linearize(const Measurement& measured, const double* from, const double* to,
                           Matrix& J_from, Matrix& J_to);
+
+  using PointVector = Eigen::Vector2d;
+  using PointMatrix = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
+  using PointByPose = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
+  /// The point in the frame of the node, with its derivatives by the steps of both.
+  static PointVector linearize_point(const double* node, const double* point, PointByPose& J_node,
+                                     PointMatrix& J_point);
 };
 
 /// Pose in space as (x, y, z, qx, qy, qz, qw). A step (dx, dy, dz, rx, ry, rz) adds to the position
@@ -40,6 +48,7 @@ struct PlanarChart {
 struct SpatialChart {
   static constexpr int kParameters = 7;
   static constexpr int kTangent = 6;
+  static constexpr int kPoint = 3;
   using Vector = Vector6d;
   using Matrix = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
@@ -56,6 +65,13 @@ struct SpatialChart {
   static Vector error(const Measurement& measured, const double* from, const double* to);
   static Vector linearize(const Measurement& measured, const double* from, const double* to,
                           Matrix& J_from, Matrix& J_to);
+
+  using PointVector = Eigen::Vector3d;
+  using PointMatrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  using PointByPose = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
+  /// The point in the frame of the node, with its derivatives by the steps of both.
+  static PointVector linearize_point(const double* node, const double* point, PointByPose& J_node,
+                                     PointMatrix& J_point);
 };
 
 /// One edge of a pose graph, ready to be evaluated many times.
@@ -68,6 +84,7 @@ class EdgeFactor {
  public:
   using Vector = typename Chart::Vector;
   using Matrix = typename Chart::Matrix;
+  using ByPose = Matrix;
 
   /// The information must be positive semidefinite up to rounding.
   explicit EdgeFactor(const PoseGraphEdge& edge);
@@ -92,6 +109,41 @@ class EdgeFactor {
   Matrix whitening_;
 };
 
+/// One measured point, ready to be evaluated many times: r = R_node^T (p - t_node) - p_node.
+template <class Chart>
+class PointFactor {
+ public:
+  using Vector = typename Chart::PointVector;
+  using Matrix = typename Chart::PointMatrix;
+  using ByPose = typename Chart::PointByPose;
+
+  /// The information must be positive semidefinite up to rounding.
+  explicit PointFactor(const PointEdge& edge);
+
+  /// Whitened error W r with W^T W = information, and its derivatives by the steps of both.
+  Vector linearize(const double* node, const double* point, ByPose& J_node, Matrix& J_point) const {
+    ByPose J_n;
+    Matrix J_p;
+    const Vector local = Chart::linearize_point(node, point, J_n, J_p);
+    J_node.noalias() = whitening_ * J_n;
+    J_point.noalias() = whitening_ * J_p;
+    return whitening_ * (local - measured_);
+  }
+  Vector error(const double* node, const double* point) const {
+    ByPose J_node;
+    Matrix J_point;
+    return whitening_ * (Chart::linearize_point(node, point, J_node, J_point) - measured_);
+  }
+  /// r^T information r.
+  double chi2(const double* node, const double* point) const {
+    return error(node, point).squaredNorm();
+  }
+
+ private:
+  Vector measured_;
+  Matrix whitening_;
+};
+
 /// The part of a tangent matrix of Pose that the chart uses: rows and columns x, y, rz in the
 /// plane.
 template <class Chart>
@@ -106,6 +158,8 @@ typename Chart::Vector chart_vector(const Vector6d& vector);
 
 extern template class EdgeFactor<PlanarChart>;
 extern template class EdgeFactor<SpatialChart>;
+extern template class PointFactor<PlanarChart>;
+extern template class PointFactor<SpatialChart>;
 
 /// Whether a symmetric matrix is positive definite, by its Cholesky factor.
 template <class Matrix>

@@ -45,6 +45,25 @@ void check_edge(const PoseGraphEdge& edge, size_t index, Space space, size_t num
                      " -> " + std::to_string(edge.to) + "): " + fault);
 }
 
+void check_point_edge(const PointEdge& edge, size_t index, const PoseGraph& graph) {
+  const std::string name = "pose graph point edge " + std::to_string(index) + " (node " +
+                           std::to_string(edge.node) + ", point " + std::to_string(edge.point) +
+                           "): ";
+  if (edge.node < 0 || static_cast<size_t>(edge.node) >= graph.poses.size())
+    throw InputError(name + "the graph has " + std::to_string(graph.poses.size()) + " poses");
+  if (edge.point < 0 || static_cast<size_t>(edge.point) >= graph.points.size())
+    throw InputError(name + "the graph has " + std::to_string(graph.points.size()) + " points");
+  if (!edge.p_node.allFinite()) throw InputError(name + "the position is not finite");
+  if (!edge.information.allFinite())
+    throw InputError(name + "the information matrix is not finite");
+  if (!edge.information.isApprox(edge.information.transpose(), 1e-9))
+    throw InputError(name + "the information matrix is not symmetric");
+  const bool valid = graph.space == Space::se2
+                         ? is_semidefinite(Eigen::Matrix2d(edge.information.topLeftCorner<2, 2>()))
+                         : is_semidefinite(edge.information);
+  if (!valid) throw InputError(name + "the information matrix has a negative eigenvalue");
+}
+
 int find_root(std::vector<int>& parent, int node) {
   while (parent[static_cast<size_t>(node)] != node) {
     int& up = parent[static_cast<size_t>(node)];
@@ -65,6 +84,11 @@ void check_pose_graph(const PoseGraph& graph) {
       throw InputError("fixed node " + std::to_string(node) + " is outside the graph of " +
                        std::to_string(graph.poses.size()) + " poses");
   check_edges(graph.edges, graph.space, graph.poses.size());
+  for (size_t k = 0; k < graph.points.size(); ++k)
+    if (!graph.points[k].allFinite())
+      throw InputError("pose graph point " + std::to_string(k) + ": the position is not finite");
+  for (size_t k = 0; k < graph.point_edges.size(); ++k)
+    check_point_edge(graph.point_edges[k], k, graph);
 }
 
 void check_edges(std::span<const PoseGraphEdge> edges, Space space, size_t num_poses) {
@@ -75,10 +99,17 @@ std::vector<int> connected_components(const PoseGraph& graph) {
   // Union by smaller root, so the root of a component is its smallest node.
   std::vector<int> parent(graph.poses.size());
   std::iota(parent.begin(), parent.end(), 0);
-  for (const PoseGraphEdge& edge : graph.edges) {
-    const int a = find_root(parent, edge.from);
-    const int b = find_root(parent, edge.to);
+  const auto join = [&parent](int i, int j) {
+    const int a = find_root(parent, i);
+    const int b = find_root(parent, j);
     parent[static_cast<size_t>(std::max(a, b))] = std::min(a, b);
+  };
+  for (const PoseGraphEdge& edge : graph.edges) join(edge.from, edge.to);
+  std::vector<int> seen_from(graph.points.size(), -1);
+  for (const PointEdge& edge : graph.point_edges) {
+    int& first = seen_from[static_cast<size_t>(edge.point)];
+    if (first < 0) first = edge.node;
+    join(first, edge.node);
   }
   int count = 0;
   std::vector<int> component(graph.poses.size());

@@ -11,7 +11,6 @@
 #include <numeric>
 #include <string>
 
-#include "hmt/graph/chi_squared.hpp"
 #include "hmt/graph/input_error.hpp"
 #include "pose_problem.hpp"
 #include "robust_weights.hpp"
@@ -36,17 +35,23 @@ void check_options(const PoseGraph& graph, const PoseOptimizerOptions& options) 
     throw InputError("trusted has " + std::to_string(options.trusted.size()) +
                      " flags for a graph of " + std::to_string(graph.edges.size()) +
                      " edges; it needs one an edge");
+  if (!options.trusted_points.empty() && options.trusted_points.size() != graph.point_edges.size())
+    throw InputError("trusted_points has " + std::to_string(options.trusted_points.size()) +
+                     " flags for a graph of " + std::to_string(graph.point_edges.size()) +
+                     " point edges; it needs one a point edge");
 }
 
 double sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-std::vector<bool> trusted_edges(const PoseGraph& graph, const PoseOptimizerOptions& options) {
-  if (!options.trusted.empty()) return options.trusted;
-  std::vector<bool> trusted(graph.edges.size());
-  for (size_t k = 0; k < trusted.size(); ++k)
-    trusted[k] = std::abs(graph.edges[k].to - graph.edges[k].from) == 1;
+/// One flag an edge, then one a point edge.
+std::vector<bool> trusted_factors(const PoseGraph& graph, const PoseOptimizerOptions& options) {
+  std::vector<bool> trusted = options.trusted;
+  for (size_t k = trusted.size(); k < graph.edges.size(); ++k)
+    trusted.push_back(std::abs(graph.edges[k].to - graph.edges[k].from) == 1);
+  trusted.insert(trusted.end(), options.trusted_points.begin(), options.trusted_points.end());
+  trusted.resize(graph.edges.size() + graph.point_edges.size(), false);
   return trusted;
 }
 
@@ -54,30 +59,29 @@ template <class Chart>
 SolveReport solve(const PoseGraph& graph, const PoseOptimizerOptions& options,
                   PoseProblem<Chart>& problem) {
   if (options.robust == RobustMethod::gnc)
-    return solve_gnc(graph, trusted_edges(graph, options), options.max_iterations, options.threads,
-                     problem);
-  const double huber_chi2 =
-      options.robust == RobustMethod::huber ? chi_squared_quantile(Chart::kTangent, 0.95) : 0.0;
-  const std::vector<double> ones(graph.edges.size(), 1.0);
-  return problem.solve(ones, huber_chi2, options.max_iterations);
+    return solve_gnc(graph, trusted_factors(graph, options), options.max_iterations,
+                     options.threads, problem);
+  const std::vector<double> ones(graph.edges.size() + graph.point_edges.size(), 1.0);
+  return problem.solve(ones, options.robust == RobustMethod::huber, options.max_iterations);
 }
 
 /// Where one start led.
 struct Solution {
   SolveReport solved;
-  std::vector<Pose> poses;
-  std::vector<double> edge_chi2;
+  Placement placement;
+  std::vector<double> factor_chi2;
 };
 
 template <class Chart>
 Solution solve_from(const Start& start, const PoseGraph& graph, const PoseOptimizerOptions& options,
                     PoseProblem<Chart> problem) {
-  problem.set_poses(start.poses);
+  problem.set_placement({start.poses, start.points});
   Solution solution;
   solution.solved = solve(graph, options, problem);
-  solution.poses = problem.poses();
-  solution.edge_chi2 = problem.edge_chi2();
-  if (solution.solved.inlier.empty()) solution.solved.inlier.assign(graph.edges.size(), true);
+  solution.placement = problem.placement();
+  solution.factor_chi2 = problem.factor_chi2();
+  if (solution.solved.inlier.empty())
+    solution.solved.inlier.assign(solution.factor_chi2.size(), true);
   return solution;
 }
 
@@ -94,13 +98,21 @@ size_t best_of(const std::vector<Solution>& solutions) {
   return best;
 }
 
-/// Measured numbers of the inliers less the free numbers of the poses.
+/// Measured numbers of the inliers less the free numbers of the poses and of the points seen.
 template <class Chart>
 double degrees_of_freedom(const PoseGraph& graph, const std::vector<bool>& inlier) {
   const std::vector<bool> held = held_nodes(graph);
-  const auto edges = std::count(inlier.begin(), inlier.end(), true);
+  const auto point_edges = inlier.begin() + static_cast<std::ptrdiff_t>(graph.edges.size());
+  const auto edges = std::count(inlier.begin(), point_edges, true);
   const auto free_nodes = std::count(held.begin(), held.end(), false);
-  return static_cast<double>(Chart::kTangent * (edges - free_nodes));
+  std::vector<bool> seen(graph.points.size(), false);
+  for (size_t k = 0; k < graph.point_edges.size(); ++k)
+    if (point_edges[static_cast<std::ptrdiff_t>(k)])
+      seen[static_cast<size_t>(graph.point_edges[k].point)] = true;
+  const auto sightings = std::count(point_edges, inlier.end(), true);
+  const auto free_points = std::count(seen.begin(), seen.end(), true);
+  return static_cast<double>(Chart::kTangent * (edges - free_nodes) +
+                             Chart::kPoint * (sightings - free_points));
 }
 
 template <class Chart>
@@ -111,12 +123,17 @@ PoseOptimizerReport report_of(const PoseGraph& graph, const Solution& solution) 
   report.iterations = solution.solved.iterations;
   report.gradient_norm = solution.solved.gradient_norm;
   report.cost = solution.solved.cost;
-  report.inlier = solution.solved.inlier;
   report.untrusted_start = solution.solved.untrusted_start;
-  report.edge_chi2 = solution.edge_chi2;
-  for (size_t k = 0; k < report.edge_chi2.size(); ++k)
-    if (report.inlier[k]) report.chi2 += report.edge_chi2[k];
-  report.degrees_of_freedom = degrees_of_freedom<Chart>(graph, report.inlier);
+  const std::vector<double>& chi2 = solution.factor_chi2;
+  const std::vector<bool>& inlier = solution.solved.inlier;
+  for (size_t k = 0; k < chi2.size(); ++k)
+    if (inlier[k]) report.chi2 += chi2[k];
+  report.degrees_of_freedom = degrees_of_freedom<Chart>(graph, inlier);
+  const auto edges = static_cast<std::ptrdiff_t>(graph.edges.size());
+  report.edge_chi2.assign(chi2.begin(), chi2.begin() + edges);
+  report.inlier.assign(inlier.begin(), inlier.begin() + edges);
+  report.point_chi2.assign(chi2.begin() + edges, chi2.end());
+  report.point_inlier.assign(inlier.begin() + edges, inlier.end());
   return report;
 }
 
@@ -127,9 +144,9 @@ PoseOptimizerResult optimize_in(Chart, const PoseGraph& graph,
   const PoseProblem<Chart> problem(graph);
   PoseProblem<Chart> scratch = problem;
   const std::vector<Start> starts = choose_starts(graph, options.initialization, options.restarts,
-                                                  [&](const std::vector<Pose>& poses) {
-                                                    scratch.set_poses(poses);
-                                                    return sum(scratch.edge_chi2());
+                                                  [&](const Placement& placement) {
+                                                    scratch.set_placement(placement);
+                                                    return sum(scratch.factor_chi2());
                                                   });
   std::vector<Solution> solutions(starts.size());
   tbb::task_arena(options.threads).execute([&] {
@@ -139,13 +156,14 @@ PoseOptimizerResult optimize_in(Chart, const PoseGraph& graph,
   });
   const size_t best = best_of(solutions);
   PoseOptimizerReport report = report_of<Chart>(graph, solutions[best]);
-  report.chi2_initial = sum(problem.edge_chi2());
+  report.chi2_initial = sum(problem.factor_chi2());
   report.start = starts[best].kind;
   for (size_t k = 0; k < starts.size(); ++k)
     report.starts.push_back({starts[k].kind, starts[k].chi2, solutions[k].solved.cost,
                              solutions[k].solved.termination});
   report.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return {std::move(solutions[best].poses), std::move(report)};
+  Placement& placement = solutions[best].placement;
+  return {std::move(placement.poses), std::move(placement.points), std::move(report)};
 }
 
 }  // namespace

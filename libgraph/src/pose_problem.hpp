@@ -28,8 +28,14 @@ std::vector<int> connected_components(const PoseGraph& graph);
 /// component that has none.
 std::vector<bool> held_nodes(const PoseGraph& graph);
 
-/// r^T Omega r of every edge at the given poses of the nodes.
-std::vector<double> edge_chi2(const PoseGraph& graph, const std::vector<Pose>& poses);
+/// Where the poses of the nodes are and the points with them.
+struct Placement {
+  std::vector<Pose> poses;
+  std::vector<Eigen::Vector3d> points;
+};
+
+/// r^T Omega r of every factor at a placement: the edges, then the point edges.
+std::vector<double> factor_chi2(const PoseGraph& graph, const Placement& placement);
 
 /// What one call of the solver did.
 struct SolveReport {
@@ -42,34 +48,43 @@ struct SolveReport {
   bool untrusted_start = false;
 };
 
-/// A pose graph as the solver sees it: parameters of every pose and a factor for every edge. The
-/// graph must outlive it.
+/// A pose graph as the solver sees it: parameters of every pose and point, and a factor for every
+/// edge, then for every point edge. The graph must outlive it.
 template <class Chart>
 class PoseProblem {
  public:
   explicit PoseProblem(const PoseGraph& graph);
 
-  /// Minimizes the sum over edges of weight * rho(r^T Omega r) from the present poses; rho is the
-  /// identity or, with `huber_chi2` > 0, linear in r beyond that chi2. An edge of weight zero is
-  /// left out.
-  SolveReport solve(const std::vector<double>& edge_weights, double huber_chi2, int max_iterations);
+  /// Minimizes the sum over factors of weight * rho(r^T Omega r) from the present placement; rho is
+  /// the identity or, with `huber`, linear in r beyond the 95 % quantile of chi2. A factor of
+  /// weight zero is left out.
+  SolveReport solve(const std::vector<double>& weights, bool huber, int max_iterations);
 
-  void set_poses(const std::vector<Pose>& poses);
+  void set_placement(const Placement& placement);
   /// The present poses; held nodes come back exactly as given.
   std::vector<Pose> poses() const;
-  /// r^T Omega r of every edge at the present poses.
-  std::vector<double> edge_chi2() const;
+  Placement placement() const { return {poses(), points()}; }
+  /// r^T Omega r of every factor at the present placement.
+  std::vector<double> factor_chi2() const;
 
  private:
+  struct Costs;
+
+  std::vector<Eigen::Vector3d> points() const;
   const double* parameters(int node) const {
     return parameters_.data() + static_cast<size_t>(node) * Chart::kParameters;
+  }
+  const double* point_parameters(int point) const {
+    return point_parameters_.data() + static_cast<size_t>(point) * Chart::kPoint;
   }
 
   const PoseGraph* graph_;
   std::vector<bool> held_;
-  // Shared by the copies of a problem, which differ in their poses alone.
+  // Shared by the copies of a problem, which differ in their placement alone.
   std::shared_ptr<const std::vector<EdgeFactor<Chart>>> factors_;
+  std::shared_ptr<const std::vector<PointFactor<Chart>>> point_factors_;
   std::vector<double> parameters_;
+  std::vector<double> point_parameters_;
 };
 
 extern template class PoseProblem<PlanarChart>;

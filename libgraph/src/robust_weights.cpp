@@ -19,10 +19,12 @@ constexpr int kIterationsPerSurrogate = 2;
 /// Rounds in which edges may still change sides at the end; they settle in one or two.
 constexpr int kVerdictRounds = 5;
 
-double largest_doubted(const std::vector<double>& chi2, const std::vector<bool>& trusted) {
+/// Largest chi2 of a factor that is not trusted, as a multiple of its limit.
+double largest_doubted(const std::vector<double>& chi2, const std::vector<bool>& trusted,
+                       const std::vector<double>& limits) {
   double largest = 0;
   for (size_t k = 0; k < chi2.size(); ++k)
-    if (!trusted[k]) largest = std::max(largest, chi2[k]);
+    if (!trusted[k]) largest = std::max(largest, chi2[k] / limits[k]);
   return largest;
 }
 
@@ -30,31 +32,41 @@ bool is_binary(const std::vector<double>& weights) {
   return std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0 || w == 1; });
 }
 
+/// Threshold of each factor: of the edges, then of the point edges.
+template <class Chart>
+std::vector<double> limits_of(const PoseGraph& graph) {
+  std::vector<double> limits(graph.edges.size(),
+                             chi_squared_quantile(Chart::kTangent, kInlierProbability));
+  limits.resize(graph.edges.size() + graph.point_edges.size(),
+                chi_squared_quantile(Chart::kPoint, kInlierProbability));
+  return limits;
+}
+
 std::vector<double> weights_at(const std::vector<double>& chi2, const std::vector<bool>& trusted,
-                               double limit, double mu) {
+                               const std::vector<double>& limits, double mu) {
   std::vector<double> weights(chi2.size(), 1.0);
   for (size_t k = 0; k < chi2.size(); ++k)
-    if (!trusted[k]) weights[k] = truncated_weight(chi2[k], limit, mu);
+    if (!trusted[k]) weights[k] = truncated_weight(chi2[k], limits[k], mu);
   return weights;
 }
 
 /// Solves from surrogate to surrogate until every weight is 0 or 1; returns the iterations.
 template <class Chart>
-int graduate(PoseProblem<Chart>& problem, const std::vector<bool>& trusted, double limit,
-             int max_iterations, std::vector<double>& weights) {
-  int iterations = problem.solve(weights, 0, max_iterations).iterations;
-  std::vector<double> chi2 = problem.edge_chi2();
-  const double largest = largest_doubted(chi2, trusted);
-  if (2 * largest <= limit) return iterations;
-  for (double mu = limit / (2 * largest - limit);; mu *= kMuFactor) {
-    weights = weights_at(chi2, trusted, limit, mu);
+int graduate(PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
+             const std::vector<double>& limits, int max_iterations, std::vector<double>& weights) {
+  int iterations = problem.solve(weights, false, max_iterations).iterations;
+  std::vector<double> chi2 = problem.factor_chi2();
+  const double largest = largest_doubted(chi2, trusted, limits);
+  if (2 * largest <= 1) return iterations;
+  for (double mu = 1 / (2 * largest - 1);; mu *= kMuFactor) {
+    weights = weights_at(chi2, trusted, limits, mu);
     if (is_binary(weights)) return iterations;
-    iterations += problem.solve(weights, 0, kIterationsPerSurrogate).iterations;
-    chi2 = problem.edge_chi2();
+    iterations += problem.solve(weights, false, kIterationsPerSurrogate).iterations;
+    chi2 = problem.factor_chi2();
   }
 }
 
-/// Solves over the inliers until no edge changes sides.
+/// Solves over the inliers until no factor changes sides.
 template <class Chart>
 SolveReport settle(PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
                    const std::vector<double>& limits, int max_iterations,
@@ -62,9 +74,9 @@ SolveReport settle(PoseProblem<Chart>& problem, const std::vector<bool>& trusted
   SolveReport total;
   int iterations = 0;
   for (int round = 0; round < kVerdictRounds; ++round) {
-    total = problem.solve(weights, 0, max_iterations);
+    total = problem.solve(weights, false, max_iterations);
     iterations += total.iterations;
-    const std::vector<double> chi2 = problem.edge_chi2();
+    const std::vector<double> chi2 = problem.factor_chi2();
     total.inlier.assign(chi2.size(), true);
     total.cost = 0;
     bool changed = false;
@@ -92,19 +104,19 @@ double truncated_weight(double chi2, double limit, double mu) {
 template <class Chart>
 SolveReport solve_gnc(const PoseGraph& graph, const std::vector<bool>& trusted, int max_iterations,
                       int threads, PoseProblem<Chart>& problem) {
+  std::vector<double> limits = limits_of<Chart>(graph);
+  const Placement given = problem.placement();
   const double limit = chi_squared_quantile(Chart::kTangent, kInlierProbability);
-  const std::vector<Pose> given = problem.poses();
   const auto consensus = grow_consensus(graph, trusted, limit, threads, problem);
   std::vector<double> weights(trusted.size(), 1.0);
   int iterations = 0;
-  std::vector<double> limits(trusted.size(), limit);
   if (consensus) {
     weights.assign(consensus->accepted.begin(), consensus->accepted.end());
     for (size_t k = 0; k < limits.size(); ++k)
       if (!consensus->accepted[k]) limits[k] = consensus->limit_of_others;
   } else {
-    problem.set_poses(given);
-    iterations = graduate(problem, trusted, limit, max_iterations, weights);
+    problem.set_placement(given);
+    iterations = graduate(problem, trusted, limits, max_iterations, weights);
   }
   SolveReport report = settle(problem, trusted, limits, max_iterations, weights);
   report.iterations += iterations;

@@ -207,6 +207,8 @@ void check(const PoseGraph& graph, const PoseOptimizerOptions& options, int subm
     throw InputError("submap_size is " + std::to_string(submap_size) + "; it must be at least 2");
   if (options.robust != RobustMethod::none)
     throw InputError("optimization by submaps takes robust none only; solve flat instead");
+  if (!graph.points.empty())
+    throw InputError("optimization by submaps takes graphs without points; solve flat instead");
 }
 
 }  // namespace
@@ -244,7 +246,7 @@ SubmapOptimizerResult optimize_by_submaps(const PoseGraph& graph,
   output.result = optimize(placed, refinement);
   report.refinement_s = seconds_since(joined);
   report.chi2_before_refinement = output.result.report.chi2_initial;
-  const std::vector<double> chi2 = edge_chi2(graph, graph.poses);
+  const std::vector<double> chi2 = factor_chi2(graph, {graph.poses, {}});
   output.result.report.chi2_initial = std::accumulate(chi2.begin(), chi2.end(), 0.0);
   output.result.report.solve_s = seconds_since(begin);
   return output;

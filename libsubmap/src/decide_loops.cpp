@@ -80,12 +80,13 @@ BuildResult decide_loops(const std::filesystem::path& path, const LoopDecisions&
   HybridMap map = file.load_map();
   const std::vector<Pose> T_world_keyframe = file.load_estimate();
   apply(map, T_world_keyframe, decisions);
-  const RobustSolution solution =
-      solve_robustly(map.track.space, T_world_keyframe, constraints_to_begin_with(map), run);
+  const RobustSolution solution = solve_robustly(
+      map.track.space, T_world_keyframe, constraints_to_begin_with(map), map.sightings, run);
   StageWriter writer = file.begin(next_stage(file));
   writer.reopen();
   writer.put_loops(map.loops);
   writer.put_constraints(solution.kept);
+  writer.put_sightings(solution.kept_sightings);
   writer.put_estimate(solution.T_world_keyframe);
   writer.commit();
   result.times = continue_run(file, options_from_json(file.origin().options_json), run);

@@ -14,16 +14,24 @@ namespace hmt::submap {
 namespace {
 
 SubmapJob job_of(const HybridMap& map, const Submap& submap) {
-  SubmapJob job{map.track.space,          submap.id,          submap.keyframes,
-                submap.T_submap_keyframe, submap.constraints, {}};
+  SubmapJob job{map.track.space,
+                submap.id,
+                submap.keyframes,
+                submap.T_submap_keyframe,
+                submap.constraints,
+                {},
+                {}};
   for (const int c : submap.constraints)
     job.constraints.push_back(map.constraints.at(static_cast<size_t>(c)));
+  for (const Sighting& sighting : map.sightings)
+    if (map.submap_of_keyframe.at(static_cast<size_t>(sighting.keyframe)) == submap.id)
+      job.sightings.push_back(sighting);
   return job;
 }
 
 double chi2_of(const SubmapJob& job) {
   const graph::PoseGraph graph =
-      keyframe_graph(job.space, job.keyframes, job.T_any_keyframe, job.constraints);
+      keyframe_graph(job.space, job.keyframes, job.T_any_keyframe, job.constraints, job.sightings);
   return graph::optimize(graph, {}).report.chi2_initial;
 }
 

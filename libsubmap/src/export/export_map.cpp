@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "hmt/submap/export/atomic_file.hpp"
+#include "hmt/submap/export/landmarks_file.hpp"
 #include "hmt/submap/export/occupancy_image.hpp"
 #include "hmt/submap/export/report.hpp"
 #include "hmt/submap/export/submap_cloud.hpp"
@@ -80,14 +81,23 @@ class Export {
     if (stopped) throw Interrupted{};
   }
 
+  void landmarks() const { write("landmarks.csv", landmarks_csv(map_)); }
+
   void loops() const { write("loops.jsonl", loops_jsonl(map_)); }
 
   void report() {
-    const OccupancyImage* walls = planar() ? &image() : nullptr;
+    const OccupancyImage* walls = planar() && has_surfaces() ? &image() : nullptr;
     write("report.html", report_html(map_, file_.origin(), walls));
   }
 
   const HybridMap& hybrid_map() const { return map_; }
+  /// Whether a range sensor saw anything.
+  bool has_surfaces() const {
+    const auto has_readings = [this](const Keyframe& keyframe) {
+      return !file_.load(keyframe.observation)->readings.empty();
+    };
+    return std::any_of(map_.track.keyframes.begin(), map_.track.keyframes.end(), has_readings);
+  }
   bool planar() const { return map_.track.space == Space::se2; }
 
  private:
@@ -162,6 +172,8 @@ const std::vector<Part>& parts() {
        },
        [](Export& work) { work.map(); }},
       {"submaps", submap_files, [](Export& work) { work.submaps(); }},
+      {"landmarks", [](const HybridMap&) { return Files{"landmarks.csv"}; },
+       [](Export& work) { work.landmarks(); }},
       {"loops", [](const HybridMap&) { return Files{"loops.jsonl"}; },
        [](Export& work) { work.loops(); }},
       {"report", [](const HybridMap&) { return Files{"report.html"}; },
@@ -176,16 +188,30 @@ const Part& part_named(const std::string& name) {
   throw InputError("unknown part " + name + "; see hmtmap export --help");
 }
 
-std::vector<const Part*> chosen_parts(const ExportOptions& options, bool planar) {
+/// Parts that only logs of scans and clouds can have.
+bool is_of_surfaces(const std::string& name) {
+  return name == "map" || name == "submaps";
+}
+
+/// Why the map does not have that part; empty if it does.
+std::string what_lacks(const std::string& part, const Export& work) {
+  if (part == "landmarks" && work.hybrid_map().landmarks.empty()) return "the map has none";
+  if (is_of_surfaces(part) && !work.has_surfaces()) return "a map of landmarks has no surfaces";
+  if (part == "map" && !work.planar())
+    return "an occupancy image needs a planar map, and this one is not";
+  return "";
+}
+
+std::vector<const Part*> chosen_parts(const ExportOptions& options, const Export& work) {
   std::vector<const Part*> chosen;
   for (const std::string& name : options.parts) {
     chosen.push_back(&part_named(name));
-    if (name == "map" && !planar)
-      throw InputError("part map: an occupancy image needs a planar map, and this one is not");
+    if (const std::string lack = what_lacks(name, work); !lack.empty())
+      throw InputError("part " + name + ": " + lack);
   }
   if (!options.parts.empty()) return chosen;
   for (const Part& part : parts())
-    if (planar || std::string(part.name) != "map") chosen.push_back(&part);
+    if (what_lacks(part.name, work).empty()) chosen.push_back(&part);
   return chosen;
 }
 
@@ -210,7 +236,7 @@ std::vector<std::string> export_parts() {
 std::vector<std::string> export_map(const MapFile& file, const fs::path& folder,
                                     const ExportOptions& options, const Run& run) {
   Export work(file, folder, options, run);
-  const std::vector<const Part*> chosen = chosen_parts(options, work.planar());
+  const std::vector<const Part*> chosen = chosen_parts(options, work);
   std::vector<std::string> files;
   for (const Part* part : chosen)
     for (std::string& name : part->files(work.hybrid_map())) files.push_back(std::move(name));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "hmt/submap/export/report.hpp"
 #include "number_text.hpp"
@@ -28,12 +29,17 @@ struct View {
   }
 };
 
-View view_of(const std::vector<Pose>& T_world_keyframe, const OccupancyImage* walls) {
+View view_of(const HybridMap& map, const std::vector<Pose>& T_world_keyframe,
+             const OccupancyImage* walls) {
   Eigen::Vector2d low = T_world_keyframe.at(0).translation.head<2>();
   Eigen::Vector2d high = low;
   for (const Pose& pose : T_world_keyframe) {
     low = low.cwiseMin(pose.translation.head<2>());
     high = high.cwiseMax(pose.translation.head<2>());
+  }
+  for (const PlacedLandmark& l : map.landmarks) {
+    low = low.cwiseMin(l.position.head<2>());
+    high = high.cwiseMax(l.position.head<2>());
   }
   if (walls) {
     low = low.cwiseMin(walls->origin);
@@ -99,6 +105,24 @@ std::string trajectory_lines(const HybridMap& map, const std::vector<Pose>& T_wo
   return svg;
 }
 
+/// Every landmark in the color of the submap that saw it most often (the smaller id on a tie).
+std::string landmark_marks(const HybridMap& map, const View& view) {
+  std::map<int, std::map<int, int>> sightings;  // landmark, submap: number
+  for (const Sighting& s : map.sightings)
+    ++sightings[s.landmark][map.submap_of_keyframe[static_cast<size_t>(s.keyframe)]];
+  std::string svg;
+  for (const PlacedLandmark& l : map.landmarks) {
+    const std::map<int, int>& by_submap = sightings[l.landmark];
+    const auto most = std::max_element(by_submap.begin(), by_submap.end(),
+                                       [](auto& a, auto& b) { return a.second < b.second; });
+    if (most == by_submap.end()) continue;
+    svg += "<g transform=\"translate(" + view.point(l.position) +
+           ")\"><path d=\"M0-7L6 4H-6Z\" stroke=\"#222\" fill=\"" + color(most->first) +
+           "\"/></g>\n";
+  }
+  return svg;
+}
+
 /// Middle of a submap's keyframes in the world: its frame lies at one end.
 Eigen::Vector3d middle(const HybridMap& map, const Submap& submap) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -131,12 +155,13 @@ std::string map_svg(const HybridMap& map, const OccupancyImage* walls) {
   std::vector<Pose> T_world_keyframe;
   for (const Keyframe& keyframe : map.track.keyframes)
     T_world_keyframe.push_back(world_pose(map, keyframe.id));
-  const View view = view_of(T_world_keyframe, walls);
+  const View view = view_of(map, T_world_keyframe, walls);
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " +
                     fixed_text(view.width, 0) + " " + fixed_text(view.height, 0) +
                     "\" font-family=\"sans-serif\">\n";
   if (walls) svg += wall_path(*walls, view);
-  return svg + trajectory_lines(map, T_world_keyframe, view) + graph_lines(map, view) + "</svg>\n";
+  return svg + trajectory_lines(map, T_world_keyframe, view) + landmark_marks(map, view) +
+         graph_lines(map, view) + "</svg>\n";
 }
 
 }  // namespace hmt::submap

@@ -59,6 +59,12 @@ std::string figures_table(const HybridMap& map, const MapOrigin& origin) {
   table.add({"submaps", std::to_string(map.submaps.size())});
   table.add({"links", std::to_string(map.links.size())});
   table.add({"information loss of the partition (Eq. 22)", fixed_text(map.information_loss, 4)});
+  if (!map.landmarks.empty()) {
+    table.add({"landmarks", std::to_string(map.landmarks.size())});
+    table.add({"sightings of landmarks", std::to_string(map.sightings.size())});
+    table.add({"information loss of the landmarks (Eq. 22)",
+               fixed_text(map.landmark_information_loss, 4)});
+  }
   table.add({"chi2 of the submap graph, first and last",
              fixed_text(map.chi2_initial, 3) + ", " + fixed_text(map.chi2, 3)});
   table.add({"chi2 of all constraints by submaps, after joint refinement, flat",
@@ -136,7 +142,9 @@ std::string report_html(const HybridMap& map, const MapOrigin& origin,
       "svg{width:100%;max-width:1200px;border:1px solid #ccc}pre{font-size:85%}</style>"
       "</head><body>\n<h1>Hybrid map</h1>\n";
   html += map_svg(map, walls);
-  html += "<p>Colors and numbers: submaps; dashed: links; gray: occupied cells.</p>\n";
+  html +=
+      "<p>Colors and numbers: submaps; dashed: links; gray: occupied cells; triangles: "
+      "landmarks.</p>\n";
   html += figures_table(map, origin) + submap_table(map) + link_table(map) + loop_tables(map);
   html += "<h2>Options</h2>\n<pre>" + escape(origin.options_json) + "</pre>\n";
   return html + "</body></html>\n";

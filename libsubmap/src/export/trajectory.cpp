@@ -14,11 +14,25 @@
 namespace hmt::submap {
 namespace {
 
+using graph::Pose;
+
 constexpr int kPoseDecimals = 9;
+
+int count_fields(std::string_view fields) {
+  int count = 0;
+  while (!take_field(fields).empty()) ++count;
+  return count;
+}
 
 StampedPose parse_tum(std::string_view fields) {
   StampedPose pose;
   pose.stamp_s = take_finite(fields, "stamp");
+  if (std::string_view rest = fields; count_fields(rest) == 3) {
+    const double x_m = take_finite(fields, "x");
+    const double y_m = take_finite(fields, "y");
+    pose.T_world_robot = Pose::planar(x_m, y_m, take_finite(fields, "heading"));
+    return pose;
+  }
   for (int k = 0; k < 3; ++k) pose.T_world_robot.translation[k] = take_finite(fields, "position");
   Eigen::Vector4d q;  // x y z w, as in the file
   for (int k = 0; k < 4; ++k) q[k] = take_finite(fields, "quaternion");
@@ -39,8 +53,10 @@ std::vector<StampedPose> read_tum(const std::filesystem::path& path) {
     try {
       trajectory.push_back(parse_tum(fields));
     } catch (const std::invalid_argument& error) {
-      throw graph::InputError(lines.place() + ": " + error.what() +
-                              "; a TUM line is 'stamp x y z qx qy qz qw'");
+      throw graph::InputError(
+          lines.place() + ": " + error.what() +
+          "; a TUM line is 'stamp x y z qx qy qz qw', or 'stamp x y heading' in "
+          "the plane");
     }
   }
   if (!lines.damage().empty()) throw graph::InputError(path.string() + ": " + lines.damage());

@@ -42,10 +42,11 @@ std::vector<LoopCandidate> consistent_loops(std::vector<LoopCandidate> candidate
 }
 
 RobustSolution solve_robustly(Space space, std::span<const Pose> T_world_keyframe,
-                              std::span<const Constraint> constraints, const Run& run) {
+                              std::span<const Constraint> constraints,
+                              std::span<const Sighting> sightings, const Run& run) {
   std::vector<int> all(T_world_keyframe.size());
   std::iota(all.begin(), all.end(), 0);
-  graph::PoseGraph graph = keyframe_graph(space, all, T_world_keyframe, constraints);
+  graph::PoseGraph graph = keyframe_graph(space, all, T_world_keyframe, constraints, sightings);
   if (!graph.poses.empty()) graph.fixed = {0};
   graph::PoseOptimizerOptions options;
   options.robust = graph::RobustMethod::gnc;
@@ -57,6 +58,8 @@ RobustSolution solve_robustly(Space space, std::span<const Pose> T_world_keyfram
   solution.chi2 = result.report.chi2;
   for (size_t k = 0; k < constraints.size(); ++k)
     (result.report.inlier[k] ? solution.kept : solution.outliers).push_back(constraints[k]);
+  for (size_t k = 0; k < sightings.size(); ++k)
+    if (result.report.point_inlier[k]) solution.kept_sightings.push_back(sightings[k]);
   return solution;
 }
 

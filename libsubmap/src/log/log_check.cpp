@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace hmt::submap {
 namespace {
@@ -34,6 +35,7 @@ class Collector {
     least_stamp_s_ = std::min(least_stamp_s_, observation.stamp_s);
     greatest_stamp_s_ = std::max(greatest_stamp_s_, observation.stamp_s);
     for (const Reading& reading : observation.readings) add_reading(reading);
+    for (const LandmarkReading& reading : observation.landmark_readings) add_reading(reading);
     last_ = {observation.index, observation.stamp_s, observation.T_odom_robot};
   }
 
@@ -44,6 +46,10 @@ class Collector {
     }
     add_gaps();
     for (const auto& [id, sensor] : sensors_) summary_.sensors.push_back(sensor.summary);
+    for (auto& [id, sensor] : landmark_sensors_) {
+      sensor.summary.landmarks = static_cast<int64_t>(sensor.names.size());
+      summary_.landmark_sensors.push_back(sensor.summary);
+    }
     return std::move(summary_);
   }
 
@@ -56,6 +62,11 @@ class Collector {
   struct Sensor {
     SensorSummary summary;
     Pose T_robot_sensor;
+  };
+
+  struct LandmarkSensor {
+    LandmarkSensorSummary summary;
+    std::set<int64_t> names;
   };
 
   void add_step(const Step& from, const Observation& to) {
@@ -88,6 +99,20 @@ class Collector {
     summary.max_range_m = std::max(summary.max_range_m, reading.max_range_m);
   }
 
+  void add_reading(const LandmarkReading& reading) {
+    auto& [summary, names] = landmark_sensors_[reading.sensor];
+    summary.sensor = reading.sensor;
+    ++summary.readings;
+    for (const Landmark& landmark : reading.landmarks) {
+      ++summary.sightings;
+      if (landmark.id == kUnknownLandmark)
+        ++summary.unnamed;
+      else
+        names.insert(landmark.id);
+      summary.max_range_m = std::max(summary.max_range_m, landmark.position_sensor.norm());
+    }
+  }
+
   void add_gaps() {
     if (durations_s_.empty()) return;
     std::vector<double> sorted = durations_s_;
@@ -103,6 +128,7 @@ class Collector {
 
   LogSummary summary_;
   std::map<int, Sensor> sensors_;
+  std::map<int, LandmarkSensor> landmark_sensors_;
   std::optional<Step> last_;
   std::vector<double> durations_s_;
   double least_stamp_s_ = std::numeric_limits<double>::infinity();

@@ -6,8 +6,11 @@
 #include "carmen_reader.hpp"
 #include "cloud/cloud_folder.hpp"
 #include "hmt/submap/log/log_reader.hpp"
+#include "mrclam_reader.hpp"
 #include "recording/recording.hpp"
+#include "relations_reader.hpp"
 #include "ros/recording_reader.hpp"
+#include "text_fields.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -35,6 +38,40 @@ Reader open_ros(const fs::path& path, const LogOptions& options) {
   return std::make_unique<RecordingReader>(path, options);
 }
 
+/// By the first word of the first line that is no comment, also of a compressed file.
+bool is_relations(const fs::path& path, std::string_view /*head*/) {
+  if (fs::is_directory(path)) return false;
+  LineSource lines(path);
+  while (const auto line = lines.next()) {
+    std::string_view fields = without_comment(*line);
+    const std::string_view word = take_field(fields);
+    if (!word.empty()) return word == "ODOMETRY" || word == "LANDMARK";
+  }
+  return false;
+}
+
+Reader open_relations(const fs::path& path, const LogOptions& /*options*/) {
+  return std::make_unique<RelationsReader>(path);
+}
+
+bool is_mrclam(const fs::path& path, std::string_view /*head*/) {
+  return fs::is_directory(path) && !mrclam_robots(path).empty();
+}
+
+Reader open_mrclam(const fs::path& folder, const LogOptions& options) {
+  const std::vector<int> robots = mrclam_robots(folder);
+  std::string names;
+  for (const int robot : robots) names += (names.empty() ? "" : ", ") + std::to_string(robot);
+  if (!options.robot && robots.size() > 1)
+    throw InputError(folder.string() + ": logs of the robots " + names +
+                     "; choose one with --robot N");
+  const int robot = options.robot.value_or(robots.front());
+  if (std::ranges::find(robots, robot) == robots.end())
+    throw InputError(folder.string() + ": no robot " + std::to_string(robot) + "; there is " +
+                     names);
+  return std::make_unique<MrclamReader>(folder, robot);
+}
+
 bool is_clouds(const fs::path& path, std::string_view /*head*/) {
   return CloudFolder::is(path);
 }
@@ -44,8 +81,9 @@ Reader open_clouds(const fs::path& path, const LogOptions& options) {
 }
 
 /// The first that fits is taken.
-constexpr std::array kFormats = {Format{is_recording, open_ros}, Format{is_clouds, open_clouds},
-                                 Format{is_other_text, open_carmen}};
+constexpr std::array kFormats = {
+    Format{is_recording, open_ros}, Format{is_mrclam, open_mrclam}, Format{is_clouds, open_clouds},
+    Format{is_relations, open_relations}, Format{is_other_text, open_carmen}};
 
 }  // namespace
 
@@ -55,6 +93,8 @@ std::unique_ptr<LogReader> open_log(const fs::path& path, const LogOptions& opti
       std::ranges::find_if(kFormats, [&](const Format& f) { return f.is(path, head); });
   if (format == kFormats.end())
     throw InputError(path.string() + ": a folder without files of a known log format");
+  if (options.robot && format->open != open_mrclam)
+    throw InputError(path.string() + ": holds one robot; --robot is for folders of several");
   return format->open(path, options);
 }
 

@@ -17,11 +17,18 @@ class MapCheck {
     require(map_->submap_of_keyframe.size() == n, "the partition has not one label a keyframe");
     for (const int label : map_->submap_of_keyframe) require_index(label, num_submaps(), "label");
     for (const Constraint& c : map_->constraints) check_pair(c.a, c.b, n, "constraint");
+    for (const Sighting& s : map_->sightings) {
+      require_index(s.keyframe, n, "keyframe of a sighting");
+      require_index(s.observation, map_->track.observations.size(), "observation of a sighting");
+      require_landmark(s.landmark);
+    }
+    for (const PlacedLandmark& l : map_->landmarks) require_landmark(l.landmark);
     for (const graph::Arc& arc : map_->overlap) check_pair(arc.a, arc.b, n, "overlap");
     for (size_t id = 0; id < num_submaps(); ++id) check_submap(static_cast<int>(id));
     for (const Link& link : map_->links) {
       check_pair(link.a, link.b, num_submaps(), "link");
       for (const int c : link.evidence) require_index(c, map_->constraints.size(), "evidence");
+      for (const int l : link.landmarks) require_landmark(l);
     }
     for (const LoopCandidate& loop : map_->loops) {
       check_pair(loop.a, loop.b, n, "loop candidate");
@@ -60,6 +67,11 @@ class MapCheck {
             "a submap lacks one of its keyframes");
     for (const int c : submap.constraints)
       require_index(c, map_->constraints.size(), "constraint of a submap");
+    for (const PlacedLandmark& l : submap.landmarks) require_landmark(l.landmark);
+  }
+
+  void require_landmark(int landmark) const {
+    require_index(landmark, map_->landmark_names.size(), "number of a landmark");
   }
 
   void check_pair(int a, int b, size_t size, const char* what) const {

@@ -189,11 +189,9 @@ std::shared_ptr<const Observation> MapFile::load(int64_t index) const {
     const std::lock_guard lock(impl_->mutex);
     frame = impl_->read_observation(index, *observation);
   }
-  std::optional<std::vector<Reading>> readings = decode_readings(frame);
-  if (!readings)
+  if (!decode_sensed(frame, *observation))
     impl_->database.fail_damaged("observation " + std::to_string(index) + " cannot be decoded");
-  observation->readings = std::move(*readings);
-  impl_->cache.insert(index, observation, size_in_memory(*observation));
+  impl_->cache.insert(observation);
   return observation;
 }
 

@@ -48,6 +48,18 @@ void read_submap_constraints(Database& database, Submap& submap, Digest& digest)
   }
 }
 
+void read_submap_landmarks(Database& database, Submap& submap, Digest& digest) {
+  Statement select(database, "SELECT * FROM submap_landmarks WHERE submap = ? ORDER BY position");
+  select.bind(1, int64_t{submap.id});
+  while (select.step()) {
+    RowReader row(select, digest);
+    int64_t id = 0;
+    int64_t position = 0;
+    row(id, position);
+    fields(row, submap.landmarks.emplace_back());
+  }
+}
+
 /// The submap in the current row of table submaps.
 Submap read_submap(Database& database, const Statement& select) {
   Digest digest;
@@ -58,6 +70,7 @@ Submap read_submap(Database& database, const Statement& select) {
   row(submap.id, submap.chi2, submap.degrees_of_freedom, keyframes, constraints);
   read_submap_keyframes(database, submap, digest);
   read_submap_constraints(database, submap, digest);
+  read_submap_landmarks(database, submap, digest);
   if (select.integer(kSubmapDigestColumn) != static_cast<int64_t>(digest.value()))
     database.fail_damaged("submap " + std::to_string(submap.id) + " does not match its checksum");
   return submap;
@@ -92,6 +105,16 @@ std::vector<Constraint> MapFile::load_constraints() const {
   return read_list<Constraint>(impl_->database, "constraints");
 }
 
+std::vector<Sighting> MapFile::load_sightings() const {
+  const std::lock_guard lock(impl_->mutex);
+  return read_list<Sighting>(impl_->database, "sightings");
+}
+
+std::vector<int64_t> MapFile::load_landmark_names() const {
+  const std::lock_guard lock(impl_->mutex);
+  return read_list<int64_t>(impl_->database, "landmark_names");
+}
+
 std::vector<graph::Arc> MapFile::load_overlap() const {
   const std::lock_guard lock(impl_->mutex);
   return read_list<graph::Arc>(impl_->database, "overlap");
@@ -114,11 +137,13 @@ std::vector<Link> MapFile::load_links() const {
   const std::lock_guard lock(impl_->mutex);
   Database& database = impl_->database;
   auto links = read_list<Link>(database, "links");
-  for (const LinkEvidence& e : read_list<LinkEvidence>(database, "link_evidence")) {
-    if (e.link < 0 || static_cast<size_t>(e.link) >= links.size())
-      database.fail_damaged("evidence of a link that is not there");
-    links[static_cast<size_t>(e.link)].evidence.push_back(e.constraint);
-  }
+  for (const auto& [table, numbers] :
+       {std::pair{"link_evidence", &Link::evidence}, {"link_landmarks", &Link::landmarks}})
+    for (const LinkEvidence& e : read_list<LinkEvidence>(database, table)) {
+      if (e.link < 0 || static_cast<size_t>(e.link) >= links.size())
+        database.fail_damaged("evidence of a link that is not there");
+      (links[static_cast<size_t>(e.link)].*numbers).push_back(e.number);
+    }
   return links;
 }
 
@@ -137,6 +162,8 @@ MapSolution MapFile::load_solution() const {
   solution.chi2_initial = records[0].chi2_initial;
   solution.chi2 = records[0].chi2;
   solution.division = records[0].division;
+  solution.landmark_information_loss = records[0].landmark_information_loss;
+  solution.landmarks = read_list<PlacedLandmark>(database, "landmarks");
   for (const SubmapPose& pose : read_list<SubmapPose>(database, "submap_poses")) {
     solution.T_world_submap.push_back(pose.T_world_submap);
     solution.covariance_world_submap.push_back(pose.covariance);
@@ -177,6 +204,8 @@ HybridMap MapFile::load_map() const {
   HybridMap map;
   map.track = load_track();
   map.constraints = load_constraints();
+  map.sightings = load_sightings();
+  map.landmark_names = load_landmark_names();
   map.overlap = load_overlap();
   map.submap_of_keyframe = load_partition();
   map.submaps = load_submaps();
@@ -189,6 +218,8 @@ HybridMap MapFile::load_map() const {
   map.chi2_initial = solution.chi2_initial;
   map.chi2 = solution.chi2;
   map.division = solution.division;
+  map.landmark_information_loss = solution.landmark_information_loss;
+  map.landmarks = std::move(solution.landmarks);
   check_map(impl_->database, map);
   return map;
 }

@@ -25,6 +25,13 @@ void append(std::string& out, T value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof(value));
 }
 
+/// Numbers of a vector or matrix, column by column.
+template <class Derived>
+void append(std::string& out, const Eigen::MatrixBase<Derived>& numbers) {
+  for (Eigen::Index c = 0; c < numbers.cols(); ++c)
+    for (Eigen::Index r = 0; r < numbers.rows(); ++r) append(out, double{numbers(r, c)});
+}
+
 void append(std::string& out, const Pose& pose) {
   for (int k = 0; k < 3; ++k) append(out, pose.translation[k]);
   for (int k = 0; k < 4; ++k) append(out, pose.rotation.coeffs()[k]);
@@ -41,6 +48,32 @@ void append(std::string& out, const std::vector<Eigen::Vector3f>& points) {
     std::memcpy(bytes, points[i].data(), kPointBytes);
     for (size_t k = 0; k < kPointBytes; ++k) planes[k * n + i] = bytes[k];
   }
+}
+
+void append(std::string& out, const Reading& reading) {
+  append(out, static_cast<int32_t>(reading.sensor));
+  append(out, reading.T_robot_sensor);
+  append(out, reading.max_range_m);
+  append(out, reading.beam_step_rad);
+  append(out, static_cast<uint32_t>(reading.points_sensor.size()));
+  append(out, static_cast<uint32_t>(reading.misses_sensor.size()));
+  append(out, reading.points_sensor);
+  append(out, reading.misses_sensor);
+}
+
+void append(std::string& out, const Landmark& landmark) {
+  append(out, landmark.id);
+  append(out, landmark.position_sensor);
+  append(out, landmark.covariance_sensor);
+  append(out, static_cast<uint32_t>(landmark.descriptor.size()));
+  for (const float number : landmark.descriptor) append(out, number);
+}
+
+void append(std::string& out, const LandmarkReading& reading) {
+  append(out, static_cast<int32_t>(reading.sensor));
+  append(out, reading.T_robot_sensor);
+  append(out, static_cast<uint32_t>(reading.landmarks.size()));
+  for (const Landmark& landmark : reading.landmarks) append(out, landmark);
 }
 
 /// Takes values off the front of a block of bytes; every take fails where too few are left.
@@ -65,6 +98,14 @@ class Reader {
     return true;
   }
 
+  template <class Derived>
+  bool take_numbers(Eigen::MatrixBase<Derived>& numbers) {
+    for (Eigen::Index c = 0; c < numbers.cols(); ++c)
+      for (Eigen::Index r = 0; r < numbers.rows(); ++r)
+        if (!take(numbers(r, c))) return false;
+    return true;
+  }
+
   bool take(std::vector<Eigen::Vector3f>& points, size_t n) {
     if (rest_.size() / kPointBytes < n) return false;
     points.resize(n);
@@ -86,6 +127,41 @@ class Reader {
       return false;
     reading.sensor = sensor;
     return take(reading.points_sensor, points) && take(reading.misses_sensor, misses);
+  }
+
+  bool take(Landmark& landmark) {
+    uint32_t size = 0;
+    if (!take(landmark.id) || !take_numbers(landmark.position_sensor) ||
+        !take_numbers(landmark.covariance_sensor) || !take(size) ||
+        rest_.size() / sizeof(float) < size)
+      return false;
+    landmark.descriptor.resize(size);
+    for (float& number : landmark.descriptor) take(number);
+    return true;
+  }
+
+  bool take(LandmarkReading& reading) {
+    int32_t sensor = 0;
+    if (!take(sensor) || !take(reading.T_robot_sensor) || !take_all(reading.landmarks))
+      return false;
+    reading.sensor = sensor;
+    return true;
+  }
+
+  /// A count, then so many values.
+  template <class T>
+  bool take_all(std::vector<T>& values) {
+    uint32_t count = 0;
+    if (!take(count)) return false;
+    for (uint32_t k = 0; k < count; ++k)
+      if (!take(values.emplace_back())) return false;
+    return true;
+  }
+
+  bool take(std::optional<Matrix6d>& matrix) {
+    uint8_t is_there = 0;
+    if (!take(is_there)) return false;
+    return is_there == 0 || take_numbers(matrix.emplace());
   }
 
  private:
@@ -113,33 +189,23 @@ std::optional<std::string> decompress(std::string_view frame, size_t max_bytes) 
   return bytes;
 }
 
-std::string encode_readings(const std::vector<Reading>& readings) {
+std::string encode_sensed(const Observation& observation) {
   std::string bytes;
-  append(bytes, static_cast<uint32_t>(readings.size()));
-  for (const Reading& reading : readings) {
-    append(bytes, static_cast<int32_t>(reading.sensor));
-    append(bytes, reading.T_robot_sensor);
-    append(bytes, reading.max_range_m);
-    append(bytes, reading.beam_step_rad);
-    append(bytes, static_cast<uint32_t>(reading.points_sensor.size()));
-    append(bytes, static_cast<uint32_t>(reading.misses_sensor.size()));
-    append(bytes, reading.points_sensor);
-    append(bytes, reading.misses_sensor);
-  }
+  append(bytes, static_cast<uint32_t>(observation.readings.size()));
+  for (const Reading& reading : observation.readings) append(bytes, reading);
+  append(bytes, static_cast<uint32_t>(observation.landmark_readings.size()));
+  for (const LandmarkReading& reading : observation.landmark_readings) append(bytes, reading);
+  append(bytes, static_cast<uint8_t>(observation.motion_covariance.has_value()));
+  if (observation.motion_covariance) append(bytes, *observation.motion_covariance);
   return compress(bytes);
 }
 
-std::optional<std::vector<Reading>> decode_readings(std::string_view frame) {
+bool decode_sensed(std::string_view frame, Observation& observation) {
   const std::optional<std::string> bytes = decompress(frame, kMaxReadingBytes);
-  if (!bytes) return std::nullopt;
+  if (!bytes) return false;
   Reader in(*bytes);
-  uint32_t count = 0;
-  if (!in.take(count)) return std::nullopt;
-  std::vector<Reading> readings;
-  for (uint32_t k = 0; k < count; ++k)
-    if (!in.take(readings.emplace_back())) return std::nullopt;
-  if (!in.at_end()) return std::nullopt;
-  return readings;
+  return in.take_all(observation.readings) && in.take_all(observation.landmark_readings) &&
+         in.take(observation.motion_covariance) && in.at_end();
 }
 
 }  // namespace hmt::submap

@@ -26,10 +26,10 @@ struct LogNote {
   int64_t count = 0;
 };
 
-/// One constraint that a link is made of.
+/// One constraint or landmark that a link is made of.
 struct LinkEvidence {
   int link = 0;
-  int constraint = 0;
+  int number = 0;
 };
 
 /// The one row of table `solution`.
@@ -38,6 +38,7 @@ struct SolutionRecord {
   double chi2_initial = 0;
   double chi2 = 0;
   DivisionCost division;
+  double landmark_information_loss = 0;
 };
 
 /// Where one submap stands.
@@ -59,6 +60,18 @@ concept RecordOf = std::same_as<std::remove_const_t<T>, Record>;
 template <class Visit>
 void fields(Visit&& visit, RecordOf<int> auto& number) {
   visit(number);
+}
+template <class Visit>
+void fields(Visit&& visit, RecordOf<int64_t> auto& number) {
+  visit(number);
+}
+template <class Visit>
+void fields(Visit&& visit, RecordOf<Sighting> auto& s) {
+  visit(s.observation, s.place, s.keyframe, s.landmark, s.p_keyframe, s.information);
+}
+template <class Visit>
+void fields(Visit&& visit, RecordOf<PlacedLandmark> auto& l) {
+  visit(l.landmark, l.position, l.covariance);
 }
 template <class Visit>
 void fields(Visit&& visit, RecordOf<Pose> auto& pose) {
@@ -100,7 +113,7 @@ void fields(Visit&& visit, RecordOf<Link> auto& l) {
 }
 template <class Visit>
 void fields(Visit&& visit, RecordOf<LinkEvidence> auto& e) {
-  visit(e.link, e.constraint);
+  visit(e.link, e.number);
 }
 template <class Visit>
 void fields(Visit&& visit, RecordOf<LoopCandidate> auto& l) {
@@ -111,7 +124,7 @@ void fields(Visit&& visit, RecordOf<LoopCandidate> auto& l) {
 template <class Visit>
 void fields(Visit&& visit, RecordOf<SolutionRecord> auto& s) {
   visit(s.information_loss, s.chi2_initial, s.chi2, s.division.chi2_hybrid, s.division.chi2_refined,
-        s.division.chi2_flat);
+        s.division.chi2_flat, s.landmark_information_loss);
 }
 template <class Visit>
 void fields(Visit&& visit, RecordOf<SubmapPose> auto& p) {

@@ -15,8 +15,8 @@
 namespace hmt::submap {
 
 /// Binds the fields of one record to the parameters of a statement, in order, and adds each to a
-/// checksum. A pose takes seven parameters (x y z qx qy qz qw), a 6x6 matrix one blob of 36
-/// doubles.
+/// checksum. A pose takes seven parameters (x y z qx qy qz qw), a position three, a
+/// matrix one blob of doubles.
 class RowWriter {
  public:
   RowWriter(Statement& statement, Digest& digest) : statement_(&statement), digest_(&digest) {}
@@ -46,8 +46,13 @@ class RowWriter {
     for (int k = 0; k < 3; ++k) put(pose.translation[k]);
     for (int k = 0; k < 4; ++k) put(pose.rotation.coeffs()[k]);
   }
-  void put(const graph::Matrix6d& matrix) {
-    const std::string_view bytes(reinterpret_cast<const char*>(matrix.data()), sizeof(double) * 36);
+  void put(const Eigen::Vector3d& vector) {
+    for (int k = 0; k < 3; ++k) put(vector[k]);
+  }
+  template <int kSize>
+  void put(const Eigen::Matrix<double, kSize, kSize>& matrix) {
+    const std::string_view bytes(reinterpret_cast<const char*>(matrix.data()),
+                                 sizeof(double) * kSize * kSize);
     digest_->add(bytes);
     statement_->bind_blob(++column_, bytes);
   }
@@ -91,9 +96,13 @@ class RowReader {
     for (int k = 0; k < 3; ++k) get(pose.translation[k]);
     for (int k = 0; k < 4; ++k) get(pose.rotation.coeffs()[k]);
   }
-  void get(graph::Matrix6d& matrix) {
+  void get(Eigen::Vector3d& vector) {
+    for (int k = 0; k < 3; ++k) get(vector[k]);
+  }
+  template <int kSize>
+  void get(Eigen::Matrix<double, kSize, kSize>& matrix) {
     const std::string_view bytes = statement_->blob(column_++);
-    if (bytes.size() != sizeof(double) * 36)
+    if (bytes.size() != sizeof(double) * kSize * kSize)
       statement_->database().fail_damaged("a matrix has the wrong size");
     digest_->add(bytes);
     std::memcpy(matrix.data(), bytes.data(), bytes.size());

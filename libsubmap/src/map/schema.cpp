@@ -11,7 +11,7 @@ namespace hmt::submap {
 namespace {
 
 constexpr int64_t kApplicationId = 0x484d5431;  // "HMT1"
-constexpr int64_t kVersion = 2;
+constexpr int64_t kVersion = 3;
 
 struct Table {
   const char* name;
@@ -35,6 +35,10 @@ constexpr std::array kTables = {
     Table{"odometry", "id INTEGER PRIMARY KEY, a, b, kind, " HMT_POSE("ab") ", information BLOB"},
     Table{"constraints",
           "id INTEGER PRIMARY KEY, a, b, kind, " HMT_POSE("ab") ", information BLOB"},
+    Table{"sightings",
+          "id INTEGER PRIMARY KEY, observation, place, keyframe, landmark, keyframe_x, keyframe_y, "
+          "keyframe_z, information BLOB"},
+    Table{"landmark_names", "landmark INTEGER PRIMARY KEY, name"},
     Table{"overlap", "id INTEGER PRIMARY KEY, a, b, weight"},
     Table{"partition_labels", "keyframe INTEGER PRIMARY KEY, submap"},
     Table{"submaps",
@@ -45,9 +49,13 @@ constexpr std::array kTables = {
               "submap_keyframe") ", "
                                  "covariance BLOB, PRIMARY KEY (submap, position)"},
     Table{"submap_constraints", "submap, position, constraint_id, PRIMARY KEY (submap, position)"},
+    Table{"submap_landmarks",
+          "submap, position, landmark, submap_x, submap_y, submap_z, covariance BLOB, PRIMARY KEY "
+          "(submap, position)"},
     Table{"links", "id INTEGER PRIMARY KEY, a, b, " HMT_POSE("ab") ", covariance BLOB, ncut, "
                                                                    "information_loss"},
     Table{"link_evidence", "id INTEGER PRIMARY KEY, link, constraint_id"},
+    Table{"link_landmarks", "id INTEGER PRIMARY KEY, link, landmark"},
     Table{"loop_candidates",
           "id INTEGER PRIMARY KEY, a, b, submap_a, submap_b, "
           "predicted_distance_m, predicted_sigma_m, " HMT_POSE(
@@ -57,7 +65,9 @@ constexpr std::array kTables = {
                     "mahalanobis, chi2_rise, verdict, reason TEXT"},
     Table{"solution",
           "id INTEGER PRIMARY KEY, information_loss, chi2_initial, chi2, chi2_hybrid, "
-          "chi2_refined, chi2_flat"},
+          "chi2_refined, chi2_flat, landmark_information_loss"},
+    Table{"landmarks",
+          "id INTEGER PRIMARY KEY, landmark, world_x, world_y, world_z, covariance BLOB"},
     Table{"submap_poses", "submap INTEGER PRIMARY KEY, " HMT_POSE("world") ", covariance BLOB"},
     Table{"estimate", "keyframe INTEGER PRIMARY KEY, " HMT_POSE("world")},
     Table{"octrees", "submap INTEGER PRIMARY KEY, bytes, digest, ot_zstd BLOB"},

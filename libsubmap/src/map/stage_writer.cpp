@@ -20,7 +20,8 @@ void put_log_report(Database& database, const Track& track) {
 void erase_submap(Database& database, int id) {
   for (const char* sql :
        {"DELETE FROM submaps WHERE id = ?", "DELETE FROM submap_keyframes WHERE submap = ?",
-        "DELETE FROM submap_constraints WHERE submap = ?"}) {
+        "DELETE FROM submap_constraints WHERE submap = ?",
+        "DELETE FROM submap_landmarks WHERE submap = ?"}) {
     Statement erase(database, sql);
     erase.bind(1, int64_t{id});
     erase.run();
@@ -28,8 +29,9 @@ void erase_submap(Database& database, int id) {
 }
 
 void erase_of_partition(Database& database) {
-  for (const char* table : {"submaps", "submap_keyframes", "submap_constraints", "links",
-                            "link_evidence", "solution", "submap_poses", "octrees"})
+  for (const char* table :
+       {"submaps", "submap_keyframes", "submap_constraints", "submap_landmarks", "links",
+        "link_evidence", "link_landmarks", "solution", "submap_poses", "landmarks", "octrees"})
     erase_list(database, table);
 }
 
@@ -50,6 +52,16 @@ void put_submap_constraints(Database& database, const Submap& submap, Digest& di
   for (size_t k = 0; k < submap.constraints.size(); ++k) {
     RowWriter row(insert, digest);
     row(submap.id, static_cast<int64_t>(k), submap.constraints[k]);
+    insert.run();
+  }
+}
+
+void put_submap_landmarks(Database& database, const Submap& submap, Digest& digest) {
+  Statement insert(database, insert_sql(database, "submap_landmarks"));
+  for (size_t k = 0; k < submap.landmarks.size(); ++k) {
+    RowWriter row(insert, digest);
+    row(submap.id, static_cast<int64_t>(k));
+    fields(row, submap.landmarks[k]);
     insert.run();
   }
 }
@@ -93,7 +105,7 @@ StageWriter MapFile::begin(const std::string& stage) {
 
 void StageWriter::add(const Observation& observation) {
   // Encoding takes most of the time and needs no lock.
-  const std::string frame = encode_readings(observation.readings);
+  const std::string frame = encode_sensed(observation);
   const std::lock_guard lock(impl_->file->mutex);
   Database& database = impl_->file->database;
   if (!impl_->insert_observation)
@@ -122,6 +134,16 @@ void StageWriter::put_constraints(std::span<const Constraint> constraints) {
   write_list(impl_->file->database, "constraints", constraints);
 }
 
+void StageWriter::put_sightings(std::span<const Sighting> sightings) {
+  const std::lock_guard lock(impl_->file->mutex);
+  write_list(impl_->file->database, "sightings", sightings);
+}
+
+void StageWriter::put_landmark_names(std::span<const int64_t> names) {
+  const std::lock_guard lock(impl_->file->mutex);
+  write_list(impl_->file->database, "landmark_names", names);
+}
+
 void StageWriter::put_overlap(std::span<const graph::Arc> overlap) {
   const std::lock_guard lock(impl_->file->mutex);
   write_list(impl_->file->database, "overlap", overlap);
@@ -146,6 +168,7 @@ void StageWriter::put_submap(const Submap& submap) {
       static_cast<int64_t>(submap.constraints.size()));
   put_submap_keyframes(database, submap, digest);
   put_submap_constraints(database, submap, digest);
+  put_submap_landmarks(database, submap, digest);
   insert.bind(kSubmapDigestColumn + 1, static_cast<int64_t>(digest.value()));
   insert.run();
 }
@@ -158,6 +181,11 @@ void StageWriter::put_links(std::span<const Link> links) {
       evidence.push_back({static_cast<int>(k), constraint});
   write_list(impl_->file->database, "links", links);
   write_list<LinkEvidence>(impl_->file->database, "link_evidence", evidence);
+  std::vector<LinkEvidence> landmarks;
+  for (size_t k = 0; k < links.size(); ++k)
+    for (const int landmark : links[k].landmarks)
+      landmarks.push_back({static_cast<int>(k), landmark});
+  write_list<LinkEvidence>(impl_->file->database, "link_landmarks", landmarks);
 }
 
 void StageWriter::put_loops(std::span<const LoopCandidate> loops) {
@@ -168,12 +196,13 @@ void StageWriter::put_loops(std::span<const LoopCandidate> loops) {
 void StageWriter::put_solution(const MapSolution& solution) {
   const std::lock_guard lock(impl_->file->mutex);
   const SolutionRecord record{solution.information_loss, solution.chi2_initial, solution.chi2,
-                              solution.division};
+                              solution.division, solution.landmark_information_loss};
   write_list<SolutionRecord>(impl_->file->database, "solution", {&record, 1});
   std::vector<SubmapPose> poses;
   for (size_t k = 0; k < solution.T_world_submap.size(); ++k)
     poses.push_back({solution.T_world_submap[k], solution.covariance_world_submap.at(k)});
   write_list<SubmapPose>(impl_->file->database, "submap_poses", poses);
+  write_list<PlacedLandmark>(impl_->file->database, "landmarks", solution.landmarks);
 }
 
 void StageWriter::put_estimate(std::span<const Pose> T_world_keyframe) {
@@ -196,7 +225,8 @@ void StageWriter::reopen() {
   const std::lock_guard lock(impl_->file->mutex);
   Database& database = impl_->file->database;
   database.execute(
-      "DELETE FROM stages WHERE key LIKE 'round%' OR key LIKE 'octomap%' OR key = 'settled'");
+      "DELETE FROM stages WHERE key LIKE 'round%' OR key LIKE 'octomap%' OR key IN ('settled', "
+      "'observations')");
   erase_list(database, "partition_labels");
   erase_of_partition(database);
 }

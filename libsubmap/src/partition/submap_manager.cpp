@@ -121,7 +121,7 @@ graph::Labels SubmapManager::partition_window() const {
     c.a = position(c.a);
     c.b = position(c.b);
   }
-  return partition_keyframes(space_, window_overlap(), constraints, options_, 1);
+  return partition_keyframes(space_, window_overlap(), constraints, {}, options_, 1);
 }
 
 /// Gives each group the number of the area that most of its keyframes were in, each number once and

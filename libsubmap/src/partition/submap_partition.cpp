@@ -6,6 +6,8 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace hmt::submap {
@@ -33,12 +35,43 @@ class Components {
   std::vector<int> parent_;
 };
 
-graph::Labels connected_pieces(const graph::Labels& groups,
-                               std::span<const Constraint> constraints) {
+/// Landmarks seen from each component.
+std::map<int, std::set<int>> landmarks_of(Components& components,
+                                          std::span<const Sighting> sightings) {
+  std::map<int, std::set<int>> landmarks;
+  for (const Sighting& s : sightings) landmarks[components.root(s.keyframe)].insert(s.landmark);
+  return landmarks;
+}
+
+/// Joins components of one group that saw enough common landmarks, until none is left. A component
+/// that grows sees more.
+void join_by_landmarks(Components& components, const graph::Labels& groups,
+                       std::span<const Sighting> sightings, size_t enough) {
+  for (bool joined = true; joined;) {
+    joined = false;
+    std::map<std::pair<int, int>, std::vector<int>> seen_from;  // group and landmark
+    for (const auto& [component, landmarks] : landmarks_of(components, sightings))
+      for (const int landmark : landmarks)
+        seen_from[{groups[static_cast<size_t>(component)], landmark}].push_back(component);
+    std::map<std::pair<int, int>, size_t> common;
+    for (const auto& [key, by] : seen_from)
+      for (size_t i = 0; i < by.size(); ++i)
+        for (size_t j = i + 1; j < by.size(); ++j) ++common[{by[i], by[j]}];
+    for (const auto& [pair, count] : common)
+      if (count >= enough && components.root(pair.first) != components.root(pair.second)) {
+        components.join(pair.first, pair.second);
+        joined = true;
+      }
+  }
+}
+
+graph::Labels connected_pieces(const graph::Labels& groups, std::span<const Constraint> constraints,
+                               std::span<const Sighting> sightings, size_t enough) {
   Components components(groups.size());
   for (const Constraint& c : constraints)
     if (groups[static_cast<size_t>(c.a)] == groups[static_cast<size_t>(c.b)])
       components.join(c.a, c.b);
+  join_by_landmarks(components, groups, sightings, enough);
   graph::Labels pieces(groups.size());
   for (size_t i = 0; i < groups.size(); ++i) pieces[i] = components.root(static_cast<int>(i));
   return graph::canonical_labels(pieces);
@@ -113,6 +146,7 @@ graph::Labels without_small_pieces(graph::Labels labels, std::span<const Constra
 
 graph::Labels partition_keyframes(Space space, const graph::WeightedGraph& overlap,
                                   std::span<const Constraint> constraints,
+                                  std::span<const Sighting> sightings,
                                   const SubmapPartitionOptions& options, int threads) {
   graph::PartitionOptions recursion;
   recursion.tau = options.tau;
@@ -121,7 +155,8 @@ graph::Labels partition_keyframes(Space space, const graph::WeightedGraph& overl
   std::vector<Constraint> firm;
   std::copy_if(constraints.begin(), constraints.end(), std::back_inserter(firm),
                [space](const Constraint& c) { return is_firm(c, space); });
-  return without_small_pieces(connected_pieces(groups, firm), firm);
+  const size_t enough = space == Space::se2 ? 2 : 3;
+  return without_small_pieces(connected_pieces(groups, firm, sightings, enough), firm);
 }
 
 }  // namespace hmt::submap

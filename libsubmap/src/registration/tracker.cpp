@@ -77,15 +77,15 @@ Tracker::Tracker(Space space, const TrackOptions& options)
   track_.space = space;
 }
 
-void Tracker::start(const Observation& observation, Surface surface) {
+void Tracker::start(const Observation& observation) {
   T_track_latest_ = observation.T_odom_robot;
   add_keyframe(observation, {T_track_latest_, diagonal_in(space_, kDefining, kDefining), true},
-               std::move(surface));
+               make_surface(observation));
 }
 
-void Tracker::add(const Observation& observation, Surface surface) {
+void Tracker::add(const Observation& observation) {
   if (track_.keyframes.empty()) {
-    start(observation, std::move(surface));
+    start(observation);
   } else {
     const Motion motion = predict_step(observation);
     const Pose& step = motion.step;
@@ -95,6 +95,7 @@ void Tracker::add(const Observation& observation, Surface surface) {
     T_keyframe_odometry_ = T_keyframe_odometry_ * step;
     const Matrix6d covariance = compose_covariance(step, covariance_latest_, step_covariance);
     const Prediction prediction{T_track_latest_ * step, covariance, inverse_in(space_, covariance)};
+    Surface surface = make_surface(observation);
     const Estimate found = estimate(surface, prediction);
     learn_odometry(motion, prediction, found);
     latest_step_ = relative_pose(T_track_latest_, found.T_track_robot);

@@ -23,8 +23,7 @@ class Tracker {
  public:
   Tracker(Space space, const TrackOptions& options);
 
-  /// `surface`: what the observation saw.
-  void add(const Observation& observation, Surface surface);
+  void add(const Observation& observation);
   const TrackCounts& counts() const { return counts_; }
   /// Everything but the log report.
   Track take() { return std::move(track_); }
@@ -59,7 +58,7 @@ class Tracker {
   /// Inlier fraction less what the contradiction to the odometry costs.
   double credit(const Registration& registration, const Prediction& prediction) const;
   double mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const;
-  void start(const Observation& observation, Surface surface);
+  void start(const Observation& observation);
   /// The robot's motion since the latest observation, before its surfaces are looked at.
   Motion predict_step(const Observation& observation);
   /// What a registration tells of the odometry.

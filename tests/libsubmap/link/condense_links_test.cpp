@@ -35,7 +35,7 @@ struct Row {
 TEST(CondenseLinks, AddsTheCovarianceInsideTheSubmapToThatOfTheConstraint) {
   const Row row({measured(1, 2, Pose::planar(1, 0, 0), 0.2)});
   const auto links =
-      condense_links(Space::se2, row.submaps, row.labels, row.constraints, row.overlap, {});
+      condense_links(Space::se2, row.submaps, row.labels, row.constraints, {}, row.overlap, {});
   ASSERT_EQ(links.size(), 1u);
   EXPECT_LT(graph::boxminus(links[0].T_a_b, Pose::planar(2, 0, 0)).norm(), 1e-6);
   // Along the row: 0.1^2 from 0 to 1 and 0.2^2 from 1 to 2.
@@ -47,7 +47,7 @@ TEST(CondenseLinks, TwoConstraintsHalveTheVarianceAcrossTheCut) {
   const Row row(
       {measured(1, 2, Pose::planar(1, 0, 0), 0.2), measured(1, 2, Pose::planar(1, 0, 0), 0.2)});
   const auto links =
-      condense_links(Space::se2, row.submaps, row.labels, row.constraints, row.overlap, {});
+      condense_links(Space::se2, row.submaps, row.labels, row.constraints, {}, row.overlap, {});
   ASSERT_EQ(links.size(), 1u);
   EXPECT_NEAR(links[0].covariance(0, 0), 0.01 + 0.02, 1e-6);
 }
@@ -56,7 +56,7 @@ TEST(CondenseLinks, NcutIsThatOfTheTwoGroups) {
   // cut 0.25; assoc of each side 2 * 0.5 + 0.25: Ncut = 0.25 / 1.25 * 2.
   const Row row({measured(1, 2, Pose::planar(1, 0, 0), 0.2)});
   const auto links =
-      condense_links(Space::se2, row.submaps, row.labels, row.constraints, row.overlap, {});
+      condense_links(Space::se2, row.submaps, row.labels, row.constraints, {}, row.overlap, {});
   EXPECT_NEAR(links.at(0).ncut, 0.4, 1e-12);
 }
 
@@ -73,7 +73,7 @@ TEST(CondenseLinks, TurnsEvidenceThatRunsFromTheLaterSubmapToTheEarlier) {
        make_submap_jobs(Space::se2, row.labels, T_world_keyframe, row.constraints))
     row.submaps.push_back(optimize_submap(job));
   const auto links =
-      condense_links(Space::se2, row.submaps, row.labels, row.constraints, row.overlap, {});
+      condense_links(Space::se2, row.submaps, row.labels, row.constraints, {}, row.overlap, {});
   ASSERT_EQ(links.size(), 1u);
   EXPECT_LT(graph::boxminus(links[0].T_a_b, Pose::planar(1, 0, 0)).norm(), 1e-6);
 }
@@ -83,14 +83,15 @@ TEST(CondenseLinks, SameForAnyNumberOfThreads) {
                  measured(0, 3, Pose::planar(3, 0, 0.02), 0.2)});
   hmt::submap::Run two;
   two.threads = 2;
-  EXPECT_EQ(condense_links(Space::se2, row.submaps, row.labels, row.constraints, row.overlap, {}),
-            condense_links(Space::se2, row.submaps, row.labels, row.constraints, row.overlap, two));
+  EXPECT_EQ(
+      condense_links(Space::se2, row.submaps, row.labels, row.constraints, {}, row.overlap, {}),
+      condense_links(Space::se2, row.submaps, row.labels, row.constraints, {}, row.overlap, two));
 }
 
 TEST(SubmapGraph, HoldsTheFirstFrame) {
   const Row row({measured(1, 2, Pose::planar(1, 0, 0), 0.2)});
   const auto links =
-      condense_links(Space::se2, row.submaps, row.labels, row.constraints, row.overlap, {});
+      condense_links(Space::se2, row.submaps, row.labels, row.constraints, {}, row.overlap, {});
   const graph::PoseGraph graph = submap_graph(Space::se2, std::vector<Pose>(2), links);
   EXPECT_EQ(graph.fixed, std::vector<int>{0});
   EXPECT_NEAR(graph.edges.at(0).information(0, 0), 1 / 0.05, 1e-3);

@@ -61,7 +61,7 @@ TEST(RobustSolution, ClosesTrueLoopsAndRefusesAFalseOne) {
   laps.constraints.push_back(
       {5, 60, ConstraintKind::loop, Pose::planar(1, 1, 0), TwoLaps::information(0.02, 0.005)});
   const RobustSolution solution =
-      solve_robustly(Space::se2, laps.T_world_keyframe, laps.constraints, {});
+      solve_robustly(Space::se2, laps.T_world_keyframe, laps.constraints, {}, {});
   ASSERT_EQ(solution.outliers.size(), 1u);
   EXPECT_EQ(solution.outliers[0].b, 60);
   double worst = 0;

@@ -47,7 +47,7 @@ std::vector<Observation> drive(int64_t count) {
     reading.beam_step_rad = 0.01;
     reading.points_sensor.assign(3, {1, 2, 0});
     reading.misses_sensor.assign(1, {1, 0, 0});
-    observations.push_back({i, 100 + k, Pose::planar(0.5 * k, 0, 0), {reading}, {}});
+    observations.push_back({i, 100 + k, Pose::planar(0.5 * k, 0, 0), std::nullopt, {reading}, {}});
   }
   return observations;
 }

@@ -42,6 +42,10 @@ inline submap::Matrix6d odd_matrix(int k) {
   return matrix;
 }
 
+inline submap::PlacedLandmark odd_landmark(int k) {
+  return {k, {k / 3.0, -0.0, 0.1 * k}, odd_matrix(k).topLeftCorner<3, 3>()};
+}
+
 /// Two keyframes and one more observation in a square room; each keyframe is a submap of its own,
 /// 2 m apart, the second one turned left. All numbers are made up but fit together.
 inline submap::HybridMap sample_map() {
@@ -59,9 +63,16 @@ inline submap::HybridMap sample_map() {
   map.constraints = {track.odometry[0], {0, 1, ConstraintKind::loop, odd_pose(3), odd_matrix(2)}};
   map.overlap = {{0, 1, 1.0 / 3}};
   map.submap_of_keyframe = {0, 1};
-  map.submaps = {{0, {0}, {Pose{}}, {odd_matrix(3)}, {0, 1}, 0.25, 3},
-                 {1, {1}, {Pose{}}, {odd_matrix(4)}, {}, 0.5, 6}};
-  map.links = {{0, 1, Pose::planar(2, 0, 1.5), Matrix6d::Identity() * 0.01, {0, 1}, 0.2, 0.03}};
+  map.submaps = {
+      {0, {0}, {Pose{}}, {odd_matrix(3)}, {0, 1}, {odd_landmark(1), odd_landmark(2)}, 0.25, 3},
+      {1, {1}, {Pose{}}, {odd_matrix(4)}, {}, {odd_landmark(2)}, 0.5, 6}};
+  map.links = {
+      {0, 1, Pose::planar(2, 0, 1.5), Matrix6d::Identity() * 0.01, {0, 1}, {2}, 0.2, 0.03}};
+  map.sightings = {{0, 0, 0, 1, {1.0 / 3, -0.0, 1e-17}, odd_matrix(6).topLeftCorner<3, 3>()},
+                   {2, 3, 1, 2, {2, 0.1, 0}, odd_matrix(7).topLeftCorner<3, 3>()}};
+  map.landmark_names = {7, kUnknownLandmark, int64_t{1} << 60};
+  map.landmarks = {odd_landmark(1), odd_landmark(2)};
+  map.landmark_information_loss = 1.0 / 9;
   LoopCandidate loop;
   loop.a = 0;
   loop.b = 1;
@@ -94,11 +105,18 @@ inline submap::Observation sample_observation(int64_t index) {
     else
       reading.misses_sensor.push_back(direction);
   }
+  submap::LandmarkReading landmarks;
+  landmarks.sensor = 1;
+  landmarks.T_robot_sensor = odd_pose(3);
+  landmarks.landmarks = {
+      {7, {1.0 / 3, -0.0, 2}, odd_matrix(9).topLeftCorner<3, 3>(), {0.1f, -0.0f}},
+      {submap::kUnknownLandmark, {1, 2, 3}, Eigen::Matrix3d::Zero(), {}}};
   return {index,
           100.1 + 0.1 * static_cast<double>(index),
           odd_pose(static_cast<int>(index)),
+          odd_matrix(8),
           {reading},
-          {}};
+          {landmarks}};
 }
 
 inline submap::MapOrigin sample_origin() {
@@ -116,13 +134,16 @@ inline void write_sample_map(const std::filesystem::path& path) {
   track.commit();
   StageWriter rest = file.begin("rest");
   rest.put_constraints(map.constraints);
+  rest.put_sightings(map.sightings);
+  rest.put_landmark_names(map.landmark_names);
   rest.put_overlap(map.overlap);
   rest.put_partition(map.submap_of_keyframe);
   for (const Submap& submap : map.submaps) rest.put_submap(submap);
   rest.put_links(map.links);
   rest.put_loops(map.loops);
   rest.put_solution({map.T_world_submap, map.covariance_world_submap, map.information_loss,
-                     map.chi2_initial, map.chi2, map.division});
+                     map.chi2_initial, map.chi2, map.division, map.landmark_information_loss,
+                     map.landmarks});
   rest.commit();
 }
 

@@ -143,7 +143,7 @@ TEST(SubmapManager, HasAtEachStepTheOfflinePartitionOfItsWindow) {
         if (window[static_cast<size_t>(i)] == window[static_cast<size_t>(i) - 1] + 1)
           ties.push_back(tie(i - 1, i));
       const graph::Labels offline = partition_keyframes(
-          Space::se2, {static_cast<int>(window.size()), arcs}, ties, options, 1);
+          Space::se2, {static_cast<int>(window.size()), arcs}, ties, {}, options, 1);
 
       std::vector<WindowArc> row;
       for (const auto& [other, weight] : whole.neighbors(keyframe))

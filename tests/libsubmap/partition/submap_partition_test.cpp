@@ -34,7 +34,7 @@ graph::WeightedGraph two_rooms(int size) {
 }
 
 TEST(SubmapPartition, SeparatesTwoRoomsJoinedByAWeakOverlap) {
-  const graph::Labels labels = partition_keyframes(Space::se2, two_rooms(8), chain(16), {}, 1);
+  const graph::Labels labels = partition_keyframes(Space::se2, two_rooms(8), chain(16), {}, {}, 1);
   EXPECT_EQ(labels, (graph::Labels{0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1}));
 }
 
@@ -43,7 +43,7 @@ TEST(SubmapPartition, JoinsAKeyframeWithoutOverlapToTheSubmapItIsTiedTo) {
   std::vector<graph::Arc> arcs;
   for (int i = 0; i < 8; ++i)
     for (int j = i + 1; j < 8; ++j) arcs.push_back({i, j, 0.8});
-  EXPECT_EQ(partition_keyframes(Space::se2, {9, arcs}, chain(9), {}, 1), graph::Labels(9, 0));
+  EXPECT_EQ(partition_keyframes(Space::se2, {9, arcs}, chain(9), {}, {}, 1), graph::Labels(9, 0));
 }
 
 TEST(SubmapPartition, SplitsAGroupThatNoConstraintTiesTogether) {
@@ -53,7 +53,7 @@ TEST(SubmapPartition, SplitsAGroupThatNoConstraintTiesTogether) {
     for (int j = i + 1; j < 8; ++j) arcs.push_back({i, j, 0.8});
   const std::vector<Constraint> constraints = {tie(0, 1), tie(1, 2), tie(2, 3),
                                                tie(4, 5), tie(5, 6), tie(6, 7)};
-  EXPECT_EQ(partition_keyframes(Space::se2, {8, arcs}, constraints, {}, 1),
+  EXPECT_EQ(partition_keyframes(Space::se2, {8, arcs}, constraints, {}, {}, 1),
             (graph::Labels{0, 0, 0, 0, 1, 1, 1, 1}));
 }
 
@@ -64,12 +64,12 @@ TEST(SubmapPartition, SplitsAGroupThatOnlyALooseConstraintTiesTogether) {
     for (int j = i + 1; j < 8; ++j) arcs.push_back({i, j, 0.8});
   std::vector<Constraint> constraints = chain(8);
   constraints[3].information(0, 0) = 0;
-  EXPECT_EQ(partition_keyframes(Space::se2, {8, arcs}, constraints, {}, 1),
+  EXPECT_EQ(partition_keyframes(Space::se2, {8, arcs}, constraints, {}, {}, 1),
             (graph::Labels{0, 0, 0, 0, 1, 1, 1, 1}));
 }
 
 TEST(SubmapPartition, OfNoKeyframesIsEmpty) {
-  EXPECT_TRUE(partition_keyframes(Space::se2, graph::WeightedGraph(0, {}), {}, {}, 1).empty());
+  EXPECT_TRUE(partition_keyframes(Space::se2, graph::WeightedGraph(0, {}), {}, {}, {}, 1).empty());
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 
 namespace hmt::graph {
 
-/// Marginal covariances of a pose graph at its poses, from the sparse factor of its information
-/// matrix. In Space::se2 the rows of z, rx and ry are zero.
+/// Marginal covariances of a pose graph at its poses and points, from the sparse factor of its
+/// information matrix. In Space::se2 the rows of z, rx and ry are zero.
 class PoseCovariance {
  public:
   /// Factorizes the information matrix (Gauss-Newton, gauge of PoseGraph::fixed).
@@ -34,11 +34,15 @@ class PoseCovariance {
   std::optional<Matrix6d> marginal(int node) const;
   /// Covariance of T_a_b in the tangent of Pose (frame b).
   std::optional<Matrix6d> relative(int a, int b) const;
-  /// The same, equal up to rounding, from a column of the inverse that each thread keeps for the
-  /// last `a`, as far as it was needed: the faster way to many pairs when those of one `a` are
-  /// asked for in a row.
+  /// The same, equal up to rounding, from a whole column of the inverse that each thread keeps for
+  /// the last `a`: the faster way to many pairs when those of one `a` are asked for in a row.
   std::optional<Matrix6d> relative_by_column(int a, int b) const;
-  /// The same for many pairs; one slot a pair, independent of the number of threads.
+  /// Covariance of a point in the world; its row of z is zero in Space::se2. Nothing for a point
+  /// that no edge measures.
+  std::optional<Eigen::Matrix3d> marginal_point(int point) const;
+  /// Covariance of a point in the frame of a node.
+  std::optional<Eigen::Matrix3d> relative_point(int node, int point) const;
+  /// The relative covariances of many pairs; one slot a pair, independent of the number of threads.
   std::vector<std::optional<Matrix6d>> relative(std::span<const std::pair<int, int>> pairs,
                                                 int threads) const;
 

@@ -18,14 +18,26 @@ struct PoseGraphEdge {
   Matrix6d information = Matrix6d::Identity();
 };
 
-/// Poses T_world_node and the relative poses between them. Nodes are 0..n-1.
+/// Position of a point as measured from one node, with its information matrix.
+struct PointEdge {
+  int node = 0;
+  int point = 0;
+  Eigen::Vector3d p_node = Eigen::Vector3d::Zero();  ///< in the frame of the node
+  /// Inverse covariance of p_node. In Space::se2 only the rows and columns x and y are used.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
+};
+
+/// Poses T_world_node and the relative poses between them; points in the world and their positions
+/// as measured from the nodes. Nodes are 0..n-1, points 0..m-1.
 struct PoseGraph {
   Space space = Space::se2;
   std::vector<Pose> poses;
   std::vector<PoseGraphEdge> edges;
   /// Nodes that are held at their pose. Each connected component without one holds its smallest
-  /// node.
+  /// node. Nodes that measure the same point are connected.
   std::vector<int> fixed;
+  std::vector<Eigen::Vector3d> points;  ///< in the world; in Space::se2 their z stays as it is
+  std::vector<PointEdge> point_edges;
 };
 
 }  // namespace hmt::graph

@@ -12,8 +12,13 @@ namespace hmt::graph {
 struct Start {
   Initialization kind = Initialization::given;
   std::vector<Pose> poses;
+  std::vector<Eigen::Vector3d> points;
   double chi2 = 0;  ///< over all edges
 };
+
+/// Where the point edges see the points from the given poses: their mean weighted by information; a
+/// point that they leave open stays where the graph has it.
+std::vector<Eigen::Vector3d> place_points(const PoseGraph& graph, const std::vector<Pose>& poses);
 
 /// The start that optimize() takes for `wanted`. A chordal relaxation that does not exist, because
 /// edges without information leave a pose open, gives way to the poses of the graph. Throws

@@ -33,6 +33,8 @@ struct PoseOptimizerOptions {
   /// With gnc: edges that are never doubted (odometry), one flag an edge; empty: edges between i
   /// and i+1.
   std::vector<bool> trusted;
+  /// With gnc: the same for point edges; empty: all of them are doubted.
+  std::vector<bool> trusted_points;
   /// Further starts, >= 0: the other ones of Initialization, then random spanning trees. Each is
   /// solved and the least cost is kept.
   int restarts = 0;
@@ -54,7 +56,7 @@ struct PoseOptimizerReport {
   Termination termination = Termination::nothing_to_do;
   std::string message;
   int iterations = 0;
-  double chi2_initial = 0;  ///< sum of r^T Omega r over all edges at the given poses, no 1/2
+  double chi2_initial = 0;  ///< sum of r^T Omega r over all edges as given, no 1/2
   double chi2 = 0;          ///< the same at the result; with gnc, over the inliers
   /// What was minimized: the sum over edges of r^T Omega r, of its Huber loss, or of its
   /// truncation.
@@ -70,6 +72,8 @@ struct PoseOptimizerReport {
   Initialization start = Initialization::given;  ///< the start that was taken
   std::vector<double> edge_chi2;                 ///< r^T Omega r of every edge at the result
   std::vector<bool> inlier;                      ///< verdict on every edge; all true without gnc
+  std::vector<double> point_chi2;                ///< the same of every point edge
+  std::vector<bool> point_inlier;
   /// With gnc: the trusted edges do not determine all poses, so no set that agrees could be grown
   /// from them. The verdict is then weak: on intel without its chain, with one loop in ten false,
   /// three of ten true edges were refused.
@@ -78,14 +82,16 @@ struct PoseOptimizerReport {
 
 struct PoseOptimizerResult {
   std::vector<Pose> poses;
+  std::vector<Eigen::Vector3d> points;
   PoseOptimizerReport report;
 };
 
-/// Minimizes the sum of r^T Omega r over the poses, r = boxminus(T_world_from^-1 T_world_to,
-/// T_from_to): in the plane r = (R_z^T (t_rel - t_z), wrap(yaw)), in space r = (R_z^T (t_rel -
-/// t_z), 2 vec(q_z^-1 q_rel)) with q_w >= 0. Deterministic for any number of threads. A graph
-/// without edges returns its poses. Throws InputError naming the edge whose nodes or numbers are
-/// invalid.
+/// Minimizes the sum of r^T Omega r over the poses and points, r = boxminus(T_world_from^-1
+/// T_world_to, T_from_to): in the plane r = (R_z^T (t_rel - t_z), wrap(yaw)), in space r = (R_z^T
+/// (t_rel - t_z), 2 vec(q_z^-1 q_rel)) with q_w >= 0; of a point edge r = R_node^T (p - t_node) -
+/// p_node. In Space::se2 the z of points stays as it is. Deterministic for any number of threads. A
+/// graph without edges returns its poses. Throws InputError naming the edge whose nodes or numbers
+/// are invalid.
 PoseOptimizerResult optimize(const PoseGraph& graph, const PoseOptimizerOptions& options);
 
 }  // namespace hmt::graph

@@ -30,7 +30,8 @@ struct SubmapOptimizerResult {
 /// `options.threads`; the result does not depend on their number.
 ///
 /// `submap_size` >= 2 is the mean number of nodes of a submap. Takes robust none only: a false edge
-/// would bend its submap before anything could contradict it. Throws InputError like optimize().
+/// would bend its submap before anything could contradict it. Throws InputError like
+/// optimize(), and for a graph with points.
 SubmapOptimizerResult optimize_by_submaps(const PoseGraph& graph,
                                           const PoseOptimizerOptions& options,
                                           int submap_size = 500);

@@ -27,6 +27,7 @@ struct ExportOptions {
 ///   pose_graph  pose_graph.g2o: submaps and links
 ///   map         map.pgm, map.yaml: occupancy in the world, planar maps only
 ///   submaps     submaps/NNNN.ot, .bt, .ply, .pcd: OctoMap and cloud of each, in its own frame
+///   landmarks   landmarks.csv: where the map has some; it has no image and no OctoMaps then
 ///   loops       loops.jsonl: every loop-closure candidate
 ///   report      report.html: all of it at a glance
 std::vector<std::string> export_parts();

@@ -19,8 +19,9 @@ struct StampedPose {
   bool operator==(const StampedPose&) const = default;
 };
 
-/// Reads a TUM file: `stamp x y z qx qy qz qw` a line, metres, `#` starts a comment; plain or
-/// compressed (gz, bz2, zst). Throws InputError naming file and line for a line that is not so, for
+/// Reads a TUM file: `stamp x y z qx qy qz qw` a line, or `stamp x y heading` in the plane (as the
+/// ground truth of MRCLAM), metres and radians, `#` starts a comment; plain or compressed (gz, bz2,
+/// zst). Throws InputError naming file and line for a line that is not so, for
 /// a quaternion of length zero and for a file without poses.
 std::vector<StampedPose> read_tum(const std::filesystem::path& path);
 

@@ -15,13 +15,15 @@
 
 namespace hmt::submap {
 
-/// One link for each pair of submaps that constraints join. Its relative pose and covariance are
-/// those of the joint optimization of the two submaps with all constraints inside them and across
-/// the cut, the rest of the map left out. Ncut is that of the two submaps' keyframes in Omega (Eq.
-/// 1). Information loss is left at 0. Ordered by (a, b); same result for any number of threads.
+/// One link for each pair of submaps that constraints or landmarks seen from both join. Its
+/// relative pose and covariance are those of the joint optimization of the two submaps with all
+/// constraints inside them and across the cut and all sightings, the rest of the map left out. Ncut
+/// is that of the two submaps' keyframes in Omega (Eq. 1). Information loss is left at 0. Ordered
+/// by (a, b); same result for any number of threads.
 std::vector<Link> condense_links(Space space, std::span<const Submap> submaps,
                                  const graph::Labels& submap_of_keyframe,
                                  std::span<const Constraint> constraints,
+                                 std::span<const Sighting> sightings,
                                  const graph::WeightedGraph& overlap, const Run& run);
 
 /// The graph of submap frames and links.

@@ -15,6 +15,7 @@ struct Link {
   Pose T_a_b;  ///< pose of the frame of b in the frame of a, condensed from the evidence
   Matrix6d covariance = Matrix6d::Zero();  ///< of T_a_b, tangent of Pose (frame b)
   std::vector<int> evidence;    ///< indices into the constraints of the map across the cut
+  std::vector<int> landmarks;   ///< numbers of those that both submaps saw
   double ncut = 0;              ///< Eq. 1 between the two submaps
   double information_loss = 0;  ///< share of the map's information across this cut, Eq. 22
 

@@ -8,6 +8,7 @@
 #include "hmt/graph/pose_graph.hpp"
 #include "hmt/submap/link/loop_search.hpp"
 #include "hmt/submap/registration/constraint.hpp"
+#include "hmt/submap/registration/sighting.hpp"
 #include "hmt/submap/run.hpp"
 
 namespace hmt::submap {
@@ -28,13 +29,15 @@ struct RobustSolution {
   std::vector<Pose> T_world_keyframe;
   std::vector<Constraint> kept;      ///< the constraints without the outliers, in their order
   std::vector<Constraint> outliers;  ///< refused by graduated non-convexity
-  double chi2 = 0;                   ///< of the kept ones
+  std::vector<Sighting> kept_sightings;
+  double chi2 = 0;  ///< of the kept ones
 };
 
 /// Optimizes all keyframes with graduated non-convexity [Yang 2020]: odometry and registrations
-/// within one visit are trusted, and so is what the user confirmed; all other constraints are in
-/// or out.
+/// within one visit are trusted, and so is what the user confirmed; all other constraints and
+/// sightings are in or out.
 RobustSolution solve_robustly(Space space, std::span<const Pose> T_world_keyframe,
-                              std::span<const Constraint> constraints, const Run& run);
+                              std::span<const Constraint> constraints,
+                              std::span<const Sighting> sightings, const Run& run);
 
 }  // namespace hmt::submap

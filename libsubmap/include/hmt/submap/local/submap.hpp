@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hmt/submap/registration/constraint.hpp"
+#include "hmt/submap/registration/sighting.hpp"
 
 namespace hmt::submap {
 
@@ -16,7 +17,8 @@ struct Submap {
   std::vector<Pose> T_submap_keyframe;  ///< one a keyframe
   std::vector<Matrix6d> covariances;    ///< of each pose (tangent of Pose, frame keyframe)
   std::vector<int> constraints;  ///< indices into the constraints of the map with both ends inside
-  double chi2 = 0;               ///< of the local optimization
+  std::vector<PlacedLandmark> landmarks;  ///< that its keyframes saw, in its frame, by number
+  double chi2 = 0;                        ///< of the local optimization
   int degrees_of_freedom = 0;
 
   bool operator==(const Submap&) const = default;

@@ -26,6 +26,18 @@ struct SensorSummary {
   bool operator==(const SensorSummary&) const = default;
 };
 
+/// One sensor of landmarks of a log.
+struct LandmarkSensorSummary {
+  int sensor = 0;
+  int64_t readings = 0;
+  int64_t sightings = 0;
+  int64_t unnamed = 0;     ///< sightings without a name
+  int64_t landmarks = 0;   ///< different names
+  double max_range_m = 0;  ///< of the farthest sighting
+
+  bool operator==(const LandmarkSensorSummary&) const = default;
+};
+
 /// What a log holds and what is odd about it.
 struct LogSummary {
   LogReport report;
@@ -41,7 +53,8 @@ struct LogSummary {
   int64_t odometry_jumps = 0;
   int64_t first_jump = 0;  ///< index of the observation after it
   double largest_jump_m = 0;
-  std::vector<SensorSummary> sensors;  ///< by their number
+  std::vector<SensorSummary> sensors;                   ///< by their number
+  std::vector<LandmarkSensorSummary> landmark_sensors;  ///< by their number
   /// All that is odd, as sentences: losses first, then notes.
   std::vector<std::string> findings;
 

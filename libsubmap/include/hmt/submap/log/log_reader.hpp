@@ -42,6 +42,8 @@ class LogReader {
   virtual int64_t bytes_total() const = 0;
   /// Whether the log's poses lie in a plane.
   virtual Space space() const = 0;
+  /// Whether all that the robot senses are landmarks.
+  virtual bool has_landmarks_only() const { return false; }
 };
 
 /// What of a log is wanted, where it holds more than one thing. Recordings of ROS have topics,
@@ -53,16 +55,20 @@ struct LogOptions {
   std::string odometry_topic;
   /// File with the poses of a folder of clouds.
   std::string odometry_file;
+  /// Robot of a folder with the logs of several, >= 0; must be given for such a folder.
+  std::optional<int> robot = std::nullopt;
 
   bool operator==(const LogOptions&) const = default;
 };
 
 /// Opens a log by its content:
-///   CARMEN text, plain or compressed (gz, bz2, zst);
+///   CARMEN text, or relative poses and landmarks as text (Victoria Park), plain or compressed (gz,
+///   bz2, zst);
 ///   ROS 1 bags, MCAP files, ROS 2 sqlite3 bags, or a folder of these;
-///   a folder of clouds (PCD, PLY or KITTI's bin) with LogOptions::odometry_file.
-/// Throws InputError for a missing, unreadable, empty or unknown file, and for topics that are not
-/// there or not obvious.
+///   a folder of clouds (PCD, PLY or KITTI's bin) with LogOptions::odometry_file;
+///   a folder of MRCLAM files.
+/// Throws InputError for a missing, unreadable, empty or unknown file, and for topics and robots
+/// that are not there or not obvious.
 std::unique_ptr<LogReader> open_log(const std::filesystem::path& path,
                                     const LogOptions& options = {});
 

@@ -10,6 +10,7 @@
 #include "hmt/submap/link/loop_search.hpp"
 #include "hmt/submap/local/submap.hpp"
 #include "hmt/submap/registration/constraint.hpp"
+#include "hmt/submap/registration/sighting.hpp"
 #include "hmt/submap/registration/track.hpp"
 
 namespace hmt::submap {
@@ -32,7 +33,9 @@ struct DivisionCost {
 struct HybridMap {
   Track track;
   std::vector<Constraint> constraints;
-  std::vector<graph::Arc> overlap;  ///< Omega, every arc once with a < b, ordered
+  std::vector<Sighting> sightings;      ///< of landmarks, without the outliers
+  std::vector<int64_t> landmark_names;  ///< in the log, by number; kUnknownLandmark without one
+  std::vector<graph::Arc> overlap;      ///< Omega, every arc once with a < b, ordered
   graph::Labels submap_of_keyframe;
   std::vector<Submap> submaps;
   std::vector<Link> links;
@@ -43,6 +46,9 @@ struct HybridMap {
   double chi2_initial = 0;                        ///< of the submap graph
   double chi2 = 0;
   DivisionCost division;
+  std::vector<PlacedLandmark> landmarks;  ///< in the world, by number; those that were seen
+  /// e of Eq. 22 for the information matrix of the landmarks alone; 0 without landmarks.
+  double landmark_information_loss = 0;
 };
 
 /// T_world_keyframe of a keyframe.

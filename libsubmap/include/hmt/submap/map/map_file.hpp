@@ -37,6 +37,8 @@ struct MapSolution {
   double chi2_initial = 0;
   double chi2 = 0;
   DivisionCost division;
+  double landmark_information_loss = 0;
+  std::vector<PlacedLandmark> landmarks;  ///< in the world
 
   bool operator==(const MapSolution&) const = default;
 };
@@ -88,6 +90,8 @@ class MapFile : public ObservationStore {
   /// Each throws InputError where its stage has not been finished.
   Track load_track() const;
   std::vector<Constraint> load_constraints() const;
+  std::vector<Sighting> load_sightings() const;
+  std::vector<int64_t> load_landmark_names() const;
   std::vector<graph::Arc> load_overlap() const;
   graph::Labels load_partition() const;
   std::vector<Submap> load_submaps() const;
@@ -122,6 +126,9 @@ class StageWriter {
   void add(const Observation& observation);
   void put_track(const Track& track);
   void put_constraints(std::span<const Constraint> constraints);
+  void put_sightings(std::span<const Sighting> sightings);
+  /// What the log calls landmark 0, 1, ..; kUnknownLandmark where it has no name for it.
+  void put_landmark_names(std::span<const int64_t> names);
   void put_overlap(std::span<const graph::Arc> overlap);
   /// Also removes what belongs to the former partition: submaps, links, solution and octrees.
   void put_partition(const graph::Labels& submap_of_keyframe);

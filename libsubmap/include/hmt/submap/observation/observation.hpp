@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hmt/graph/input_error.hpp"
@@ -38,8 +39,9 @@ struct Reading {
 struct Landmark {
   /// Identity that the log gives it, 0..; kUnknownLandmark where the log gives none.
   int64_t id = kUnknownLandmark;
-  Eigen::Vector3d position_sensor = Eigen::Vector3d::Zero();    ///< sensor frame, metres
-  Eigen::Matrix3d covariance_sensor = Eigen::Matrix3d::Zero();  ///< of the position, m^2
+  Eigen::Vector3d position_sensor = Eigen::Vector3d::Zero();  ///< sensor frame, metres
+  /// Of the position, m^2; zero where the log does not tell it, which the front end then learns.
+  Eigen::Matrix3d covariance_sensor = Eigen::Matrix3d::Zero();
   std::vector<float> descriptor;  ///< of its appearance; empty if there is none
 
   bool operator==(const Landmark&) const = default;
@@ -56,9 +58,12 @@ struct LandmarkReading {
 
 /// What all sensors saw at one stamp.
 struct Observation {
-  int64_t index = 0;                               ///< position in the log, 0..
-  double stamp_s = 0;                              ///< the log's own stamp, as it was
-  Pose T_odom_robot;                               ///< by the log's odometry at the stamp
+  int64_t index = 0;   ///< position in the log, 0..
+  double stamp_s = 0;  ///< the log's own stamp, as it was
+  Pose T_odom_robot;   ///< by the log's odometry at the stamp
+  /// Of the odometry's motion since the observation before (tangent of Pose, frame of this one);
+  /// nothing where the log does not tell it.
+  std::optional<Matrix6d> motion_covariance;
   std::vector<Reading> readings;                   ///< of range sensors
   std::vector<LandmarkReading> landmark_readings;  ///< of sensors of landmarks
 

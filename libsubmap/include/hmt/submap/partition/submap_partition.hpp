@@ -7,6 +7,7 @@
 #include "hmt/graph/partition.hpp"
 #include "hmt/graph/weighted_graph.hpp"
 #include "hmt/submap/registration/constraint.hpp"
+#include "hmt/submap/registration/sighting.hpp"
 
 namespace hmt::submap {
 
@@ -25,11 +26,13 @@ struct SubmapPartitionOptions {
 
 /// Submap of each keyframe: the recursive min-Ncut partition of Omega, then made fit for local
 /// optimization. A group whose keyframes firm constraints (is_firm) do not tie together falls into
-/// its connected pieces; a piece of fewer than three keyframes joins the submap that it shares most
-/// constraints with (by count; the smaller id on a tie). So every submap is connected by its own
-/// constraints, and every keyframe is in exactly one.
+/// its connected pieces; pieces that saw as many common landmarks as fix a pose, two in the plane
+/// and three in space, are one. A piece of fewer than three keyframes joins the submap that it
+/// shares most constraints with (by count; the smaller id on a tie). So every submap is connected
+/// by what it holds, and every keyframe is in exactly one.
 graph::Labels partition_keyframes(Space space, const graph::WeightedGraph& overlap,
                                   std::span<const Constraint> constraints,
+                                  std::span<const Sighting> sightings,
                                   const SubmapPartitionOptions& options, int threads);
 
 }  // namespace hmt::submap

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "hmt/graph/pose_covariance.hpp"
+#include "hmt/submap/link/bundle_in_order.hpp"
+#include "hmt/submap/link/robust_solution.hpp"
+#include "hmt/submap/overlap/keyframe_landmarks.hpp"
+#include "hmt/submap/registration/landmark_track.hpp"
+#include "stages.hpp"
+#include "whole_map.hpp"
+
+namespace hmt::submap {
+namespace {
+
+std::vector<Pose> track_poses(const Track& track) {
+  std::vector<Pose> T_track_robot;
+  for (const Keyframe& keyframe : track.keyframes) T_track_robot.push_back(keyframe.T_track_robot);
+  return T_track_robot;
+}
+
+std::vector<Constraint> of_kind(std::span<const Constraint> constraints, ConstraintKind kind) {
+  std::vector<Constraint> result;
+  std::copy_if(constraints.begin(), constraints.end(), std::back_inserter(result),
+               [kind](const Constraint& c) { return c.kind == kind; });
+  return result;
+}
+
+}  // namespace
+
+void read_and_track(MapFile& file, const std::string& stage, const std::filesystem::path& log,
+                    const Options& options, const Run& run) {
+  const auto reader = open_log(log, options.log);
+  StageWriter writer = file.begin(stage);
+  const auto keep = [&writer](const Observation& o) { writer.add(o); };
+  const LandmarkTrack result =
+      reader->has_landmarks_only()
+          ? track_landmarks(*reader, options.track, keep, run)
+          : LandmarkTrack{track_log(*reader, options.track, keep, run), {}, {}};
+  const Track& track = result.track;
+  writer.put_track(track);
+  writer.put_constraints(track.odometry);
+  writer.put_sightings(result.sightings);
+  writer.put_landmark_names(result.names);
+  writer.put_loops({});
+  writer.put_estimate(result.sightings.empty() ? track_poses(track)
+                                               : bundle_in_order(track, result.sightings, run));
+  writer.commit();
+}
+
+void find_overlap(MapFile& file, const Track& track, const std::string& stage,
+                  const Options& options, const Run& run) {
+  const std::vector<Pose> T_world_keyframe = file.load_estimate();
+  std::vector<Constraint> constraints = file.load_constraints();
+  const std::vector<Sighting> sightings = file.load_sightings();
+  const graph::PoseCovariance covariance(
+      graph_of_all(track, T_world_keyframe, constraints, sightings));
+  // Overlap asks for the pairs of one keyframe after the other.
+  const PairCovariance of_pair = [&covariance](int a, int b) {
+    return covariance.relative_by_column(a, b);
+  };
+  const std::optional<KeyframeLandmarks> landmarks =
+      sightings.empty() ? std::nullopt
+                        : std::optional<KeyframeLandmarks>(std::in_place, track, sightings,
+                                                           file.load_landmark_names());
+  const ObservationStore& sensed =
+      landmarks ? static_cast<const ObservationStore&>(*landmarks) : file;
+  const graph::WeightedGraph overlap =
+      overlap_graph(track.keyframes, T_world_keyframe, of_pair, sensed, options.overlap, run);
+  const auto registered = of_kind(constraints, ConstraintKind::registration);
+  const std::vector<Constraint> found =
+      register_overlapping(track.space, track.keyframes, T_world_keyframe, overlap, registered,
+                           of_pair, file, options.local, run);
+  constraints.insert(constraints.end(), found.begin(), found.end());
+  StageWriter writer = file.begin(stage);
+  writer.put_overlap(overlap.arcs());
+  const RobustSolution solution =
+      solve_robustly(track.space, T_world_keyframe, constraints, sightings, run);
+  writer.put_constraints(solution.kept);
+  writer.put_sightings(solution.kept_sightings);
+  writer.commit();
+}
+
+}  // namespace hmt::submap
