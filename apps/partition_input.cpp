@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -41,6 +42,19 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+void add_information(const submap::HybridMap& map, const std::vector<int>& keyframes,
+                     const std::vector<graph::Pose>& T_world_keyframe, PartitionInput& input) {
+  graph::PoseGraph graph = submap::keyframe_graph(map.track.space, keyframes, T_world_keyframe,
+                                                  map.constraints, map.sightings);
+  input.information.emplace(graph);
+  if (graph.points.empty()) return;
+  graph.fixed = {0};
+  input.landmark_information.emplace(graph);
+  input.keyframes_of_landmark.resize(graph.points.size());
+  for (const graph::PointEdge& edge : graph.point_edges)
+    input.keyframes_of_landmark[static_cast<size_t>(edge.point)].push_back(edge.node);
+}
+
 PartitionInput from_map(const submap::HybridMap& map) {
   const auto n = map.track.keyframes.size();
   PartitionInput input;
@@ -49,8 +63,7 @@ PartitionInput from_map(const submap::HybridMap& map) {
   std::iota(all.begin(), all.end(), 0);
   std::vector<graph::Pose> T_world_keyframe;
   for (const int k : all) T_world_keyframe.push_back(submap::world_pose(map, k));
-  input.information.emplace(submap::keyframe_graph(map.track.space, all, T_world_keyframe,
-                                                   map.constraints, map.sightings));
+  add_information(map, all, T_world_keyframe, input);
   for (size_t k = 0; k < n; ++k) {
     const size_t last = k > 0 ? k - 1 : 0;
     const double way_m =
@@ -68,6 +81,21 @@ PartitionInput from_map(const submap::HybridMap& map) {
 std::optional<double> PartitionInput::information_loss(const graph::Labels& labels) const {
   if (!information) return std::nullopt;
   return information->loss(labels).total;
+}
+
+std::optional<PartitionInput::LandmarkLoss> PartitionInput::landmark_loss(
+    const graph::Labels& labels) const {
+  if (!landmark_information) return std::nullopt;
+  double copies = 0;
+  std::vector<std::vector<int>> groups_of_landmark;
+  for (const std::vector<int>& keyframes : keyframes_of_landmark) {
+    std::set<int> groups;
+    for (const int keyframe : keyframes) groups.insert(labels[static_cast<size_t>(keyframe)]);
+    groups_of_landmark.emplace_back(groups.begin(), groups.end());
+    copies += static_cast<double>(groups.size());
+  }
+  return LandmarkLoss{landmark_information->loss(groups_of_landmark),
+                      copies / static_cast<double>(groups_of_landmark.size())};
 }
 
 PartitionInput read_partition_input(const std::filesystem::path& path, const Globals& globals) {

@@ -24,6 +24,7 @@ struct Summary {
   int largest = 0;
   double kway_ncut = 0;
   std::optional<double> information_loss;
+  std::optional<PartitionInput::LandmarkLoss> landmarks;
 };
 
 Summary summarize(const PartitionInput& input, const graph::Labels& labels) {
@@ -35,7 +36,8 @@ Summary summarize(const PartitionInput& input, const graph::Labels& labels) {
           sizes[sizes.size() / 2],
           sizes.back(),
           graph::kway_ncut(input.overlap, labels),
-          input.information_loss(labels)};
+          input.information_loss(labels),
+          input.landmark_loss(labels)};
 }
 
 nlohmann::ordered_json to_json(const Summary& s) {
@@ -45,19 +47,28 @@ nlohmann::ordered_json to_json(const Summary& s) {
                                  {"largest", s.largest},
                                  {"kway_ncut", s.kway_ncut}};
   if (s.information_loss) json["information_loss"] = *s.information_loss;
+  if (s.landmarks) {
+    json["landmark_information_loss"] = s.landmarks->information_loss;
+    json["landmark_copies"] = s.landmarks->copies;
+  }
   return json;
 }
 
 const char* const kColumns = "  groups  smallest  median  largest  k-way Ncut";
 
 std::string columns(const PartitionInput& input) {
-  return input.information ? std::string(kColumns) + "  information loss" : kColumns;
+  std::string text = kColumns;
+  if (input.information) text += "  information loss";
+  if (input.landmark_information) text += "  of landmarks  copies of each";
+  return text;
 }
 
 std::string row(const Summary& s) {
   std::string text = fmt::format("{:8} {:9} {:7} {:8} {:11.4f}", s.groups, s.smallest, s.median,
                                  s.largest, s.kway_ncut);
   if (s.information_loss) text += fmt::format(" {:17.6f}", *s.information_loss);
+  if (s.landmarks)
+    text += fmt::format(" {:13.6f} {:15.2f}", s.landmarks->information_loss, s.landmarks->copies);
   return text;
 }
 
@@ -65,6 +76,8 @@ std::string csv_row(const Summary& s) {
   std::string text =
       fmt::format("{},{},{},{},{}", s.groups, s.smallest, s.median, s.largest, s.kway_ncut);
   if (s.information_loss) text += fmt::format(",{}", *s.information_loss);
+  if (s.landmarks)
+    text += fmt::format(",{},{}", s.landmarks->information_loss, s.landmarks->copies);
   return text;
 }
 
@@ -122,7 +135,9 @@ int print_tau_sweep(const PartitionInput& input, graph::PartitionOptions options
                     const std::string& csv_file, const Globals& globals) {
   std::string text = "  tau" + columns(input) + "\n";
   std::string csv = "tau,groups,smallest,median,largest,kway_ncut";
-  csv += input.information ? ",information_loss\n" : "\n";
+  if (input.information) csv += ",information_loss";
+  if (input.landmark_information) csv += ",landmark_information_loss,landmark_copies";
+  csv += "\n";
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (int step = 1; step <= 30; ++step) {
     options.tau = 0.05 * step;

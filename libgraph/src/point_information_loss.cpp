@@ -45,26 +45,24 @@ class PartedInformation {
     cross_.setFromTriplets(cross_entries_.begin(), cross_entries_.end());
   }
 
-  double loss(std::span<const std::vector<int>> groups) const {
+  /// Calls visit(i, j, norm) for all measured points i <= j; norm: |H_ij| + |H_ji|, or |H_ii|.
+  template <class Visit>
+  void for_each_block(const Visit& visit) const {
     const Eigen::SimplicialLLT<SparseMatrix> factor(poses_);
-    if (factor.info() != Eigen::Success) return 0;
-    double all = 0;
-    double between = 0;
+    if (factor.info() != Eigen::Success) return;
     for (size_t i = 0; i < points_.size(); ++i) {
       if (!measured_[i]) continue;
       const auto column = static_cast<Eigen::Index>(i) * kPoint;
       const Eigen::MatrixXd own = cross_.middleCols(column, kPoint);
       const Eigen::MatrixXd solved = factor.solve(own);
       for (size_t j = i; j < points_.size(); ++j) {
+        if (!measured_[j]) continue;
         PointBlock block = -(
             cross_.middleCols(static_cast<Eigen::Index>(j) * kPoint, kPoint).transpose() * solved);
         if (i == j) block += points_[i];
-        const double norm = block.norm() * (i == j ? 1 : 2);
-        all += norm;
-        if (!have_common(groups[i], groups[j])) between += norm;
+        visit(i, j, block.norm() * (i == j ? 1 : 2));
       }
     }
-    return all > 0 ? between / all : 0;
   }
 
  private:
@@ -123,17 +121,55 @@ class PartedInformation {
   SparseMatrix cross_;
 };
 
+/// Sums up e of Eq. 22.
+class LossSum {
+ public:
+  LossSum(std::span<const std::vector<int>> groups, size_t num_points) : groups_(groups) {
+    if (groups.size() != num_points)
+      throw InputError("information loss: groups of " + std::to_string(groups.size()) +
+                       " points for " + std::to_string(num_points));
+  }
+
+  void add(size_t i, size_t j, double norm) {
+    all_ += norm;
+    if (!have_common(groups_[i], groups_[j])) between_ += norm;
+  }
+  double ratio() const { return all_ > 0 ? between_ / all_ : 0; }
+
+ private:
+  std::span<const std::vector<int>> groups_;
+  double all_ = 0;
+  double between_ = 0;
+};
+
 }  // namespace
+
+PointInformationBlocks::PointInformationBlocks(const PoseGraph& graph)
+    : num_points_(graph.points.size()) {
+  check_pose_graph(graph);
+  with_chart(graph.space, [&](auto chart) {
+    PartedInformation<decltype(chart)>(graph).for_each_block(
+        [this](size_t i, size_t j, double norm) {
+          blocks_.push_back({i, j, norm});
+        });
+  });
+}
+
+double PointInformationBlocks::loss(std::span<const std::vector<int>> groups_of_point) const {
+  LossSum sum(groups_of_point, num_points_);
+  for (const Block& block : blocks_) sum.add(block.i, block.j, block.norm);
+  return sum.ratio();
+}
 
 double point_information_loss(const PoseGraph& graph,
                               std::span<const std::vector<int>> groups_of_point) {
-  if (groups_of_point.size() != graph.points.size())
-    throw InputError("information loss: groups of " + std::to_string(groups_of_point.size()) +
-                     " points for " + std::to_string(graph.points.size()));
+  LossSum sum(groups_of_point, graph.points.size());
   check_pose_graph(graph);
-  return with_chart(graph.space, [&](auto chart) {
-    return PartedInformation<decltype(chart)>(graph).loss(groups_of_point);
+  with_chart(graph.space, [&](auto chart) {
+    PartedInformation<decltype(chart)>(graph).for_each_block(
+        [&sum](size_t i, size_t j, double norm) { sum.add(i, j, norm); });
   });
+  return sum.ratio();
 }
 
 }  // namespace hmt::graph

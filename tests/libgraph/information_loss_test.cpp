@@ -26,6 +26,20 @@ TEST(InformationLoss, IsOneHalfWhenTheOnlyEdgeIsCut) {
   EXPECT_NEAR(loss.between.at({0, 1}), 0.5, 1e-15);
 }
 
+TEST(InformationLoss, CountsWhatTwoPosesShareByAPoint) {
+  // Both see a point at the origin with information I. Marginalized, H = [I/2 -I/2; -I/2 I/2].
+  PoseGraph graph;
+  graph.poses.resize(3);
+  graph.points.resize(1);
+  graph.point_edges = {{0, 0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()},
+                       {1, 0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()}};
+  EXPECT_NEAR(information_loss(graph, std::vector<int>{0, 1, 1}).total, 0.5, 1e-12);
+  EXPECT_EQ(information_loss(graph, std::vector<int>{0, 0, 1}).total, 0);
+  // A third one: H_ii = 2/3 I, H_ij = -1/3 I, of which one in three pairs stays together.
+  graph.point_edges.push_back({2, 0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()});
+  EXPECT_NEAR(information_loss(graph, std::vector<int>{0, 0, 1}).total, 4.0 / 12, 1e-12);
+}
+
 TEST(InformationLoss, CountsOnlyTheCutOfAChain) {
   //  0 - 1 | 2    H: diagonal 1 2 1, off-diagonal 4 blocks of 1; the cut edge owns 2 of 8.
   EXPECT_NEAR(information_loss(chain_at_origin(3), std::vector<int>{0, 0, 1}).total, 2.0 / 8,

@@ -77,7 +77,7 @@ TEST(PointEdge, IsRefusedByGncWhereItContradictsTheOthers) {
   options.robust = RobustMethod::gnc;
   const PoseOptimizerResult result = optimize(graph, options);
   EXPECT_LT(boxminus(result.poses[1], Pose::planar(2, 1, 0.7)).norm(), 1e-6);
-  for (const size_t k : {0, 1, 4, 5, 6, 7}) EXPECT_TRUE(result.report.point_inlier[k]);
+  for (const size_t k : {0u, 1u, 4u, 5u, 6u, 7u}) EXPECT_TRUE(result.report.point_inlier[k]);
   EXPECT_FALSE(result.report.point_inlier[2] && result.report.point_inlier[3]);
 }
 
@@ -142,6 +142,7 @@ TEST(PointInformationLoss, IsThatOfTheBlocksBetweenGroups) {
   const std::vector<std::vector<int>> apart = {{0}, {1}};
   const std::vector<std::vector<int>> shared = {{0, 1}, {1}};
   EXPECT_NEAR(point_information_loss(graph, apart), 0.25, 1e-6);
+  EXPECT_EQ(PointInformationBlocks(graph).loss(apart), point_information_loss(graph, apart));
   EXPECT_EQ(point_information_loss(graph, shared), 0);
   EXPECT_THROW(point_information_loss(graph, std::vector<std::vector<int>>(3)), InputError);
   // What only a held node sees is independent.

@@ -2,57 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <fstream>
-#include <numbers>
-#include <random>
-
 #include "hmt/submap/export/landmarks_file.hpp"
 #include "hmt/submap/export/trajectory.hpp"
 #include "hmt/submap/pipeline.hpp"
-#include "real_data.hpp"
+#include "park.hpp"
 #include "temporary_folder.hpp"
 
 namespace hmt::submap {
 namespace {
 
-/// A robot that drives two rounds on a circle of 20 m, between trees on both sides of its way.
-struct Park {
-  std::map<int64_t, Eigen::Vector2d> trees;
-  std::vector<Pose> T_world_robot;
-
-  explicit Park(const std::filesystem::path& log) {
-    std::mt19937 generator(1);
-    std::normal_distribution<double> normal;
-    for (int k = 0; k < 40; ++k) {
-      const double angle = 2 * std::numbers::pi * k / 40;
-      const double radius = k % 2 == 0 ? 24 : 16.5;
-      trees[100 + k] = {radius * std::cos(angle), radius * std::sin(angle)};
-    }
-    std::ofstream out(log);
-    out.precision(17);
-    for (int step = 0; step < 500; ++step) {
-      const double angle = 4 * std::numbers::pi * step / 500;
-      T_world_robot.push_back(
-          Pose::planar(20 * std::cos(angle), 20 * std::sin(angle), angle + std::numbers::pi / 2));
-      if (step > 0) {
-        const Pose T =
-            graph::relative_pose(T_world_robot[T_world_robot.size() - 2], T_world_robot.back());
-        out << "ODOMETRY " << step - 1 << " " << step << " "
-            << T.translation.x() + 0.02 * normal(generator) << " "
-            << T.translation.y() + 0.02 * normal(generator) << " "
-            << T.yaw_rad() + 0.01 * normal(generator) << " 0.0004 0 0 0.0004 0 0.0001\n";
-      }
-      for (const auto& [name, p] : trees) {
-        const Eigen::Vector3d seen =
-            T_world_robot.back().inverse() * Eigen::Vector3d(p.x(), p.y(), 0);
-        if (step > 0 && seen.norm() < 9 && seen.x() > 0)
-          out << "LANDMARK " << step << " " << name << " " << seen.x() + 0.1 * normal(generator)
-              << " " << seen.y() + 0.1 * normal(generator) << " 0.01 0 0.01\n";
-      }
-    }
-  }
-};
+using test::Park;
 
 TEST(LandmarkMap, OfASimulatedParkIsTrue) {
   const test::TemporaryFolder folder;
@@ -98,19 +57,6 @@ TEST(LandmarkMap, IsTheSameOnOneAndOnTwoThreads) {
     csv.push_back(landmarks_csv(map));
   }
   EXPECT_EQ(csv[0], csv[1]);
-}
-
-TEST(LandmarkMap, OfVictoriaParkHasAllItsTrees) {
-  HMT_REQUIRE_REAL_DATA("landmarks/victoria_park.txt");
-  const test::TemporaryFolder folder;
-  submap::Run run;
-  run.threads = 2;
-  const HybridMap map = build_map(test::data_dir() / "landmarks/victoria_park.txt",
-                                  folder.path() / "park.hmt", {}, MapFile::Existing::resume, run)
-                            .file.load_map();
-  EXPECT_EQ(map.landmarks.size(), 151u);
-  EXPECT_EQ(map.track.observations.size(), 6969u);
-  EXPECT_GT(map.sightings.size(), 3560u);  // of 3640: a few contradict the rest
 }
 
 }  // namespace

@@ -12,12 +12,6 @@ namespace {
 /// More landmarks than any sensor sees around one place.
 constexpr int kMostLandmarks = 64;
 
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 }  // namespace
 
 LandmarkFilter::LandmarkFilter(Space space, const Pose& T_track_robot)
@@ -38,7 +32,7 @@ LandmarkFilter::Prediction LandmarkFilter::predict_measurement(int slot) const {
   predicted.J_point = T_track_robot_.rotation_matrix().transpose();
   predicted.p_robot =
       predicted.J_point * (p_track_[static_cast<size_t>(slot)] - T_track_robot_.translation);
-  predicted.J_pose << -Eigen::Matrix3d::Identity(), skew(predicted.p_robot);
+  predicted.J_pose << -Eigen::Matrix3d::Identity(), graph::skew(predicted.p_robot);
   return predicted;
 }
 
@@ -120,7 +114,7 @@ void LandmarkFilter::insert(int landmark, const MeasuredLandmark& measured) {
   p_track_[static_cast<size_t>(slot)] = T_track_robot_ * measured.p_robot;
   const Eigen::Matrix3d R = T_track_robot_.rotation_matrix();
   Eigen::Matrix<double, 3, 6> J_pose;
-  J_pose << R, -R * skew(measured.p_robot);
+  J_pose << R, -R * graph::skew(measured.p_robot);
   const Eigen::Matrix<double, 3, Eigen::Dynamic> rows = J_pose * covariance_.topRows<kPose>();
   const Eigen::Matrix3d own =
       rows.leftCols<kPose>() * J_pose.transpose() + R * measured.covariance * R.transpose();

@@ -15,14 +15,16 @@ namespace hmt::graph {
 /// What a partition of a pose graph's nodes costs: the share of its information that lies between
 /// different groups.
 struct InformationLoss {
-  /// e of Eq. 22, in [0, 1]; 0 for a graph without edges.
+  /// e of Eq. 22, in [0, 1]; 0 for a graph without edges and sightings.
   double total = 0;
-  /// The same for each pair of groups (a < b) that edges join; they sum up to `total`.
+  /// The same for each pair of groups (a < b) that share any; they sum up to `total`.
   std::map<std::pair<int, int>, double> between;
 };
 
 /// The Gauss-Newton information matrix H of a pose graph at its poses, as the Frobenius norms
-/// |H_ij| of the blocks of two poses. Parallel edges are summed into their block first.
+/// |H_ij| of the blocks of two poses, all points marginalized out: two poses that sighted the same
+/// point share information as if an edge joined them. Parallel edges are summed into their block
+/// first.
 class InformationBlocks {
  public:
   explicit InformationBlocks(const PoseGraph& graph);

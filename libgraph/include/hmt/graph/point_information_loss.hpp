@@ -22,4 +22,21 @@ namespace hmt::graph {
 double point_information_loss(const PoseGraph& graph,
                               std::span<const std::vector<int>> groups_of_point);
 
+/// The same for many partitions of one graph: keeps the norms of all blocks, O(points^2) memory.
+class PointInformationBlocks {
+ public:
+  explicit PointInformationBlocks(const PoseGraph& graph);
+
+  double loss(std::span<const std::vector<int>> groups_of_point) const;
+
+ private:
+  struct Block {
+    size_t i = 0;
+    size_t j = 0;
+    double norm = 0;
+  };
+  size_t num_points_ = 0;
+  std::vector<Block> blocks_;
+};
+
 }  // namespace hmt::graph

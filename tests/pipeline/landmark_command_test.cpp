@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "hmt/submap/pipeline.hpp"
+#include "park.hpp"
+#include "real_data.hpp"
+#include "run_command.hpp"
+#include "temporary_folder.hpp"
+
+namespace hmt::submap {
+namespace {
+
+TEST(LandmarkMap, IsComparedByTheInformationThatSubmapsShareAndByCopiesOfLandmarks) {
+  const test::TemporaryFolder folder;
+  const test::Park park(folder.path() / "park.txt");
+  const auto result =
+      test::run_hmtmap("partition " + (folder.path() / "park.txt").string() + " --compare --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto methods = result.json().at("methods");
+  // Both rounds pass every place: by overlap they are in one submap, by time in two.
+  EXPECT_LT(methods.at("ncut").at("information_loss"), methods.at("fixed").at("information_loss"));
+  EXPECT_LT(methods.at("ncut").at("landmark_copies"), methods.at("fixed").at("landmark_copies"));
+  EXPECT_GT(methods.at("ncut").at("landmark_information_loss"), 0);
+}
+
+TEST(LandmarkMap, OfVictoriaParkHasAllItsTrees) {
+  HMT_REQUIRE_REAL_DATA("landmarks/victoria_park.txt");
+  const test::TemporaryFolder folder;
+  submap::Run run;
+  run.threads = 2;
+  const HybridMap map = build_map(test::data_dir() / "landmarks/victoria_park.txt",
+                                  folder.path() / "park.hmt", {}, MapFile::Existing::resume, run)
+                            .file.load_map();
+  EXPECT_EQ(map.landmarks.size(), 151u);
+  EXPECT_EQ(map.track.observations.size(), 6969u);
+  EXPECT_GT(map.sightings.size(), 3560u);  // of 3640: a few contradict the rest
+}
+
+}  // namespace
+}  // namespace hmt::submap
