@@ -37,5 +37,21 @@ TEST(LandmarkMap, OfVictoriaParkHasAllItsTrees) {
   EXPECT_GT(map.sightings.size(), 3560u);  // of 3640: a few contradict the rest
 }
 
+TEST(LandmarkMap, OfMrclamIsTrueToItsGroundTruth) {
+  HMT_REQUIRE_REAL_DATA("landmarks/mrclam7/Robot1_Odometry.dat.gz");
+  const test::TemporaryFolder folder;
+  const std::string log = (test::data_dir() / "landmarks/mrclam7").string();
+  for (const std::string robot : {"1", "2"}) {
+    const std::string map = (folder.path() / (robot + ".hmt")).string();
+    ASSERT_EQ(test::run_hmtmap("map " + log + " --robot " + robot + " -o " + map).code, 0);
+    const auto errors =
+        test::run_hmtmap("evaluate " + map + " --json --reference " + log + "/Robot" + robot +
+                         "_Groundtruth.dat.gz --landmarks " + log + "/Landmark_Groundtruth.dat")
+            .json();
+    EXPECT_LE(errors.at("ate_rmse_m"), 0.10);
+    EXPECT_LE(errors.at("landmark_rmse_m"), 0.08);
+  }
+}
+
 }  // namespace
 }  // namespace hmt::submap

@@ -192,16 +192,8 @@ class LandmarkTracker {
 LandmarkTrack track_landmarks(LogReader& log, const TrackOptions& options,
                               const std::function<void(const Observation&)>& keep, const Run& run) {
   validate(options);
-  LandmarkNoise noise;
   const std::vector<Observation> observations =
-      with_noise(read_all(log, run), log.space(), options, noise);
-  run.log_info("noise: range " + std::to_string(std::exp(noise.log_deviation[0])) + " m and " +
-               std::to_string(std::exp(noise.log_deviation[1])) + " of it, bearing " +
-               std::to_string(std::exp(noise.log_deviation[2])) + " rad, odometry " +
-               std::to_string(std::exp(noise.log_deviation[3])) + " m/sqrt(m), " +
-               std::to_string(std::exp(noise.log_deviation[4])) + " rad/sqrt(rad), scales " +
-               std::to_string(std::exp(noise.log_scale[0])) + " and " +
-               std::to_string(std::exp(noise.log_scale[1])));
+      with_noise(read_all(log, run), log.space(), options);
   LandmarkTracker tracker(log.space(), options, observations.front().T_odom_robot);
   for (const Observation& observation : observations) {
     if (run.stop_requested()) throw Interrupted{};

@@ -17,7 +17,7 @@ struct LandmarkTrack {
 /// Reads a log of landmarks once and follows the robot by a Kalman filter over its pose and the
 /// landmarks seen most recently. A name in the log is a landmark; measurements without one are
 /// associated by Mahalanobis distance, one to one, and ambiguous ones are left out. Covariances
-/// that the log does not tell are learnt from it.
+/// that the log does not tell are those of an ordinary sensor on an ordinary robot.
 ///
 /// A keyframe begins where the robot has moved by what `options` say and the one before saw as many
 /// landmarks as fix a pose, so that each sees something. It holds what all observations saw that
