@@ -7,17 +7,22 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bisection.hpp"
+#include "coarsening.hpp"
 #include "csr_graph.hpp"
 #include "hmt/graph/group_refinement.hpp"
 #include "hmt/graph/input_error.hpp"
 
 namespace hmt::graph {
 namespace {
+
+/// Aggregates a group that are left to place the cuts between them.
+constexpr int kLeastAggregates = 16;
 
 struct Group {
   CsrGraph graph;
@@ -112,6 +117,24 @@ PartitionResult best_first_partition(const WeightedGraph& graph, const Partition
   PartitionResult result = BestFirst(options, threads).run(whole_graph(graph));
   if (options.refine) result.labels = refine_groups(graph, result.labels, options.min_size);
   return result;
+}
+
+Labels coarse_best_first_labels(const WeightedGraph& graph, int groups, int threads) {
+  CsrGraph coarse = whole_graph(graph);
+  std::vector<int> aggregate = coarse.nodes;
+  while (coarse.size() >= 4 * kLeastAggregates * groups) {
+    CoarseGraph next = coarsen(coarse);
+    // Nodes without arcs are joined to none.
+    if (2 * next.graph.size() > coarse.size()) break;
+    for (int& a : aggregate) a = next.aggregate[static_cast<size_t>(a)];
+    coarse = std::move(next.graph);
+  }
+  std::iota(coarse.nodes.begin(), coarse.nodes.end(), 0);
+  PartitionOptions options;
+  options.groups = groups;
+  const Labels labels = BestFirst(options, threads).run(std::move(coarse)).labels;
+  for (int& a : aggregate) a = labels[static_cast<size_t>(a)];
+  return canonical_labels(aggregate);
 }
 
 }  // namespace hmt::graph

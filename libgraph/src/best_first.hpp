@@ -12,4 +12,8 @@ namespace hmt::graph {
 PartitionResult best_first_partition(const WeightedGraph& graph, const PartitionOptions& options,
                                      int threads);
 
+/// The same where the last bit of Ncut does not matter, faster on large graphs: nodes are joined to
+/// aggregates, at least sixteen a group on average, and these are cut. No refinement across groups.
+Labels coarse_best_first_labels(const WeightedGraph& graph, int groups, int threads);
+
 }  // namespace hmt::graph

@@ -14,8 +14,8 @@
 #include <string>
 #include <utility>
 
+#include "best_first.hpp"
 #include "hmt/graph/input_error.hpp"
-#include "hmt/graph/partition.hpp"
 #include "hmt/graph/pose_covariance.hpp"
 #include "pose_problem.hpp"
 
@@ -36,19 +36,27 @@ struct Submap {
 };
 
 WeightedGraph arcs_of(const PoseGraph& graph) {
-  std::map<std::pair<int, int>, double> weights;
-  for (const PoseGraphEdge& edge : graph.edges) weights[std::minmax(edge.from, edge.to)] += 1;
+  std::vector<std::pair<int, int>> pairs;
+  pairs.reserve(graph.edges.size());
+  for (const PoseGraphEdge& edge : graph.edges) pairs.push_back(std::minmax(edge.from, edge.to));
+  std::sort(pairs.begin(), pairs.end());
   std::vector<Arc> arcs;
-  for (const auto& [pair, weight] : weights) arcs.push_back({pair.first, pair.second, weight});
+  arcs.reserve(pairs.size());
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (k > 0 && pairs[k] == pairs[k - 1])
+      arcs.back().weight += 1;
+    else
+      arcs.push_back({pairs[k].first, pairs[k].second, 1});
+  }
   return {static_cast<int>(graph.poses.size()), arcs};
 }
 
 /// Submap of every node. A group that its own edges do not hold together is several submaps.
 std::vector<int> cut(const PoseGraph& graph, int submap_size, int threads) {
-  PartitionOptions options;
   const auto nodes = static_cast<int>(graph.poses.size());
-  options.groups = std::max(1, (nodes + submap_size - 1) / submap_size);
-  const Labels labels = recursive_partition(arcs_of(graph), options, threads).labels;
+  if (nodes == 0) return {};
+  const int groups = std::max(1, (nodes + submap_size - 1) / submap_size);
+  const Labels labels = coarse_best_first_labels(arcs_of(graph), groups, threads);
   PoseGraph inside;
   inside.poses.resize(graph.poses.size());
   for (const PoseGraphEdge& edge : graph.edges)
@@ -239,6 +247,8 @@ SubmapOptimizerResult optimize_by_submaps(const PoseGraph& graph,
   placed.poses = place_nodes(graph, submaps, top.poses);
   report.links_s = seconds_since(solved);
 
+  // Their factors are as large as that of the whole graph, which comes next.
+  submaps.clear();
   const Clock::time_point joined = Clock::now();
   PoseOptimizerOptions refinement = options;
   refinement.initialization = Initialization::given;

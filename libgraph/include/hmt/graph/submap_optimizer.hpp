@@ -24,9 +24,10 @@ struct SubmapOptimizerResult {
 };
 
 /// The optimum of optimize(), reached by submaps: min-Ncut partition of the graph (an arc weighs as
-/// many edges as join its nodes), every submap optimized in the frame of its first node, the edges
-/// between two submaps condensed into one relative pose of their frames with its covariance, the
-/// graph of submaps optimized, and all poses refined together from there. Submaps and links run on
+/// many edges as join its nodes; large graphs are coarsened to some sixteen aggregates a submap
+/// first), every submap optimized in the frame of its first node, the edges between two submaps
+/// condensed into one relative pose of their frames with its covariance, the graph of submaps
+/// optimized, and all poses refined together from there. Submaps and links run on
 /// `options.threads`; the result does not depend on their number.
 ///
 /// `submap_size` >= 2 is the mean number of nodes of a submap. Takes robust none only: a false edge
