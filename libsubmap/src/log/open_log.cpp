@@ -38,16 +38,33 @@ Reader open_ros(const fs::path& path, const LogOptions& options) {
   return std::make_unique<RecordingReader>(path, options);
 }
 
-/// By the first word of the first line that is no comment, also of a compressed file.
-bool is_relations(const fs::path& path, std::string_view /*head*/) {
-  if (fs::is_directory(path)) return false;
+/// First word of the first line that is no comment, also of a compressed file; empty of a folder.
+std::string first_word(const fs::path& path) {
+  if (fs::is_directory(path)) return {};
   LineSource lines(path);
   while (const auto line = lines.next()) {
     std::string_view fields = without_comment(*line);
     const std::string_view word = take_field(fields);
-    if (!word.empty()) return word == "ODOMETRY" || word == "LANDMARK";
+    if (!word.empty()) return std::string(word);
   }
-  return false;
+  return {};
+}
+
+bool is_relations(const fs::path& path, std::string_view /*head*/) {
+  const std::string word = first_word(path);
+  return word == "ODOMETRY" || word == "LANDMARK";
+}
+
+bool is_pose_graph(const fs::path& path, std::string_view /*head*/) {
+  const std::string word = first_word(path);
+  return word.starts_with("VERTEX") || word.starts_with("EDGE") || word == "FIX";
+}
+
+Reader refuse_pose_graph(const fs::path& path, const LogOptions& /*options*/) {
+  throw InputError(path.string() +
+                   ": a pose graph, which holds no observations to build a map from; `hmtmap "
+                   "optimize GRAPH.g2o -o OUT.g2o --method submaps` cuts it into submaps and "
+                   "optimizes it by them");
 }
 
 Reader open_relations(const fs::path& path, const LogOptions& /*options*/) {
@@ -82,8 +99,9 @@ Reader open_clouds(const fs::path& path, const LogOptions& options) {
 
 /// The first that fits is taken.
 constexpr std::array kFormats = {
-    Format{is_recording, open_ros}, Format{is_mrclam, open_mrclam}, Format{is_clouds, open_clouds},
-    Format{is_relations, open_relations}, Format{is_other_text, open_carmen}};
+    Format{is_recording, open_ros},           Format{is_mrclam, open_mrclam},
+    Format{is_clouds, open_clouds},           Format{is_relations, open_relations},
+    Format{is_pose_graph, refuse_pose_graph}, Format{is_other_text, open_carmen}};
 
 }  // namespace
 

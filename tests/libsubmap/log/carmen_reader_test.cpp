@@ -299,6 +299,8 @@ TEST_F(CarmenReader, RefusesWhatIsNoLog) {
   std::string words;
   for (int i = 0; i < 2000; ++i) words += "words\n";
   EXPECT_THAT(refusal(words), HasSubstr("unknown log format"));
+  for (const char* line : {"VERTEX_SE2 0 0 0 0\n", "# graph\nEDGE_SE3:QUAT 0 1\n", "FIX 0\n"})
+    EXPECT_THAT(refusal(line), HasSubstr("--method submaps"));
   EXPECT_THROW(open_log(folder_.path()), InputError);
   EXPECT_THROW(open_log(folder_.path() / "no_such_file"), InputError);
 }
