@@ -293,8 +293,9 @@ int run_optimize(const OptimizeArguments& arguments, const Globals& globals) {
   }
   if (report.untrusted_start)
     run.log_warning(
-        "the edges between consecutive vertices do not determine all poses, so there is no trusted "
-        "start: the verdict on the edges is weak and may refuse many true ones");
+        "the edges between consecutive vertices do not determine all poses; what joins them is a "
+        "guess that was checked: the verdict on the edges is sound for a few drives that loops "
+        "join, and weak where no odometry is known");
   file.graph.poses = std::move(result.poses);
   graph::write_g2o(arguments.output, file);
   if (!arguments.verdicts.empty()) write_verdicts(arguments.verdicts, file, report);

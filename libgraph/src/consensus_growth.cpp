@@ -10,9 +10,13 @@
 #include <numbers>
 #include <utility>
 
+#include "backbone.hpp"
 #include "hmt/graph/chi_squared.hpp"
 #include "hmt/graph/pose_covariance.hpp"
+#include "piece_cycles.hpp"
+#include "pose_volume.hpp"
 #include "spanning_tree.hpp"
+#include "unsquared_start.hpp"
 
 namespace hmt::graph {
 namespace {
@@ -27,6 +31,8 @@ constexpr int kRoundsPerLevel = 6;
 /// Iterations of a solve on the way; the next round goes on from where it ended.
 constexpr int kIterationsPerRound = 10;
 
+/// Rounds of joining pieces anew where the backbone is a guess; they end when nothing changes.
+constexpr int kRejoinRounds = 50;
 /// Degrees of freedom from which chi2 tells the scale of the noise, and the least scale that is
 /// believed.
 constexpr double kDegreesForScale = 30;
@@ -60,12 +66,6 @@ double log_volume_of_map(const PoseGraph& graph, int translation_size) {
   const double pi = std::numbers::pi;
   return translation_size * std::log(std::max(box.diagonal().norm(), 1e-3)) +
          std::log(translation_size == 2 ? 2 * pi : 8 * pi * pi);
-}
-
-/// Volume of the unit ball in 3 or 6 dimensions.
-double log_unit_ball(int size) {
-  const double pi = std::numbers::pi;
-  return std::log(size == 3 ? 4 * pi / 3 : pi * pi * pi / 6);
 }
 
 /// The `share` quantile of the values as a multiple of that of chi2; 0 for no values.
@@ -109,26 +109,29 @@ class Grower {
  public:
   Grower(const PoseGraph& graph, const std::vector<bool>& trusted, double limit, int threads,
          PoseProblem<Chart>& problem)
-      : graph_(graph), trusted_(trusted), limit_(limit), threads_(threads), problem_(problem) {}
+      : graph_(graph),
+        trusted_(trusted),
+        limit_(limit),
+        threads_(threads),
+        problem_(problem),
+        backbone_(trusted) {}
 
   std::optional<Consensus> run() {
     if (!graph_.point_edges.empty()) return std::nullopt;
-    accepted_ = trusted_;
-    const PoseGraph backbone = subgraph(graph_, trusted_, graph_.poses);
-    problem_.set_placement({spanning_tree_poses(backbone, held_nodes(graph_)), {}});
-    if (connected_components(backbone) != connected_components(graph_)) return std::nullopt;
+    untrusted_ = !determines_all(trusted_);
+    accepted_.assign(graph_.edges.size(), false);
+    hold_by(untrusted_ ? guessed_backbone() : trusted_);
     solve();
     log_volume_ =
         log_volume_of_map(subgraph(graph_, {}, problem_.poses()), Chart::kTangent / 3 + 1);
-    if (!predict_all()) return std::nullopt;
-    for (const Gate& gate : gates())
-      for (int round = 0; round < kRoundsPerLevel; ++round) {
-        const std::vector<bool> next = pass(gate);
-        if (next == accepted_) break;
-        accepted_ = next;
-        solve();
-        if (!predict_all()) return std::nullopt;
-      }
+    if (!predict_all() || !grow()) return std::nullopt;
+    for (int round = 0; round < kRejoinRounds && untrusted_; ++round) {
+      const std::vector<bool> before = accepted_;
+      if (!rejoin()) break;
+      solve();
+      if (!predict_all() || !grow()) return std::nullopt;
+      if (accepted_ == before) break;
+    }
     return take_in_the_tail();
   }
 
@@ -142,6 +145,72 @@ class Grower {
     return all;
   }
 
+  bool determines_all(const std::vector<bool>& edges) const {
+    return connected_components(subgraph(graph_, edges, graph_.poses)) ==
+           connected_components(graph_);
+  }
+
+  /// The trusted edges, and where these leave poses apart the least doubted others.
+  std::vector<bool> guessed_backbone() {
+    std::vector<double> doubt = unsquared_deviations(graph_, trusted_, limit_, problem_);
+    for (size_t k = 0; k < doubt.size(); ++k)
+      if (trusted_[k]) doubt[k] = -1;
+    std::vector<bool> backbone = least_doubted_forest(graph_, doubt);
+    for (size_t k = 0; k < doubt.size(); ++k)
+      if (trusted_[k]) backbone[k] = true;
+    return backbone;
+  }
+
+  /// Accepts what agrees, gate by gate, until the set stands.
+  bool grow() {
+    for (const Gate& gate : gates())
+      for (int round = 0; round < kRoundsPerLevel; ++round) {
+        const std::vector<bool> next = pass(gate);
+        if (next == accepted_) break;
+        accepted_ = next;
+        solve();
+        if (!predict_all()) return false;
+      }
+    return true;
+  }
+
+  /// Joins the pieces of the accepted graph anew where cycles over them close; false where none
+  /// does, or nothing changes.
+  bool rejoin() {
+    const PoseCovariance covariance(subgraph(graph_, accepted_, problem_.poses()));
+    if (!covariance.ok()) return false;
+    const AcceptedGraph accepted(graph_, accepted_, trusted_);
+    const std::vector<int> piece = accepted.pieces();
+    const std::vector<size_t> closing =
+        closing_edges<Chart>(graph_, problem_.poses(), covariance, piece,
+                             [&](size_t k, size_t l) { return accepted.are_beside(k, l); },
+                             {limit_ * scale_of_bulk(), log_volume_});
+    if (closing.empty()) return false;
+    const std::vector<bool> before = accepted_;
+    std::vector<double> doubt(before.size(), 4);
+    for (size_t k = 0; k < before.size(); ++k) {
+      if (!before[k]) continue;
+      const PoseGraphEdge& edge = graph_.edges[k];
+      accepted_[k] = piece[static_cast<size_t>(edge.from)] == piece[static_cast<size_t>(edge.to)];
+      doubt[k] = !accepted_[k] ? 3 : backbone_[k] ? 0 : 1;
+    }
+    for (const size_t k : closing) {
+      accepted_[k] = true;
+      doubt[k] = 2;
+    }
+    hold_by(least_doubted_forest(graph_, doubt));
+    return accepted_ != before;
+  }
+
+  /// Takes the edges for the backbone and places all poses along it.
+  void hold_by(std::vector<bool> backbone) {
+    backbone_ = std::move(backbone);
+    for (size_t k = 0; k < backbone_.size(); ++k)
+      if (backbone_[k]) accepted_[k] = true;
+    const PoseGraph part = subgraph(graph_, backbone_, graph_.poses);
+    problem_.set_placement({spanning_tree_poses(part, held_nodes(graph_)), {}});
+  }
+
   void solve() {
     problem_.solve(to_weights(accepted_), false, kIterationsPerRound);
     chi2_ = problem_.factor_chi2();
@@ -151,7 +220,7 @@ class Grower {
   std::vector<bool> pass(const Gate& gate) const {
     std::vector<bool> next = accepted_;
     for (size_t k = 0; k < next.size(); ++k)
-      next[k] = trusted_[k] || (next[k] && chi2_[k] <= limit_);
+      next[k] = backbone_[k] || (next[k] && chi2_[k] <= limit_);
     const double limit = gate.limit * (gate.by_tail ? scale_of_tail() : scale_of_bulk());
     const double log_gate =
         log_unit_ball(Chart::kTangent) + Chart::kTangent / 2.0 * std::log(limit) - log_volume_;
@@ -166,7 +235,7 @@ class Grower {
   Consensus take_in_the_tail() const {
     std::vector<double> predicted;
     for (const Prediction& p : predictions_) predicted.push_back(p.chi2);
-    Consensus consensus{accepted_, 0};
+    Consensus consensus{accepted_, 0, untrusted_};
     consensus.limit_of_others = below_widest_gap(predicted, limit_ * scale_of_tail(), limit_);
     for (const Prediction& p : predictions_)
       if (p.chi2 <= consensus.limit_of_others) consensus.accepted[p.edge] = true;
@@ -239,7 +308,7 @@ class Grower {
   std::vector<double> accepted_errors() const {
     std::vector<double> errors;
     for (size_t k = 0; k < accepted_.size(); ++k)
-      if (accepted_[k] && !trusted_[k]) errors.push_back(chi2_[k]);
+      if (accepted_[k] && !backbone_[k]) errors.push_back(chi2_[k]);
     return errors;
   }
 
@@ -248,6 +317,8 @@ class Grower {
   double limit_;
   int threads_;
   PoseProblem<Chart>& problem_;
+  std::vector<bool> backbone_;  ///< edges that hold the poses together and are not dropped
+  bool untrusted_ = false;      ///< the backbone is a guess
   std::vector<bool> accepted_;
   std::vector<double> chi2_;             ///< of every edge at the present solution
   std::vector<Prediction> predictions_;  ///< of the edges that are not accepted

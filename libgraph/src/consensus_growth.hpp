@@ -15,6 +15,7 @@ struct Consensus {
   /// chi2 up to which an edge that is not in the set might still belong to it: beyond the noise as
   /// it is seen, at most the limit.
   double limit_of_others = 0;
+  bool guessed = false;  ///< the trusted edges do not determine all poses; see grow_consensus()
 };
 
 /// A set of edges that agree, grown from the trusted ones: each round predicts the error of every
@@ -25,8 +26,13 @@ struct Consensus {
 /// graph is solved again, which sharpens the predictions, and accepted edges beyond the limit are
 /// dropped. Unlike a solution with all edges, it is never bent by the false ones.
 ///
-/// Leaves the problem at the solution over the set; nothing where the trusted edges do not
-/// determine all poses, an information matrix is singular, or there are points.
+/// Where the trusted edges do not determine all poses (several drives, no odometry), the set grows
+/// from them and the edges that least unsquared deviations doubt least. What one mistake may then
+/// hold in the wrong place (a single edge, or some beside each other) is joined anew wherever a
+/// cycle over such pieces closes that says more, until nothing changes.
+///
+/// Leaves the problem at the solution over the set; nothing where an information matrix is singular
+/// or there are points.
 template <class Chart>
 std::optional<Consensus> grow_consensus(const PoseGraph& graph, const std::vector<bool>& trusted,
                                         double limit, int threads, PoseProblem<Chart>& problem);

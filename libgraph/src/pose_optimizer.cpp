@@ -45,11 +45,25 @@ double sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
+/// Edges between i and i+1, if they join most of the nodes that follow each other: few do by chance
+/// where the numbers have no meaning.
+std::vector<bool> edges_of_the_sequence(const PoseGraph& graph) {
+  std::vector<bool> between(graph.edges.size());
+  std::vector<bool> joined(graph.poses.size(), false);
+  for (size_t k = 0; k < between.size(); ++k) {
+    const PoseGraphEdge& edge = graph.edges[k];
+    between[k] = std::abs(edge.to - edge.from) == 1;
+    if (between[k]) joined[static_cast<size_t>(std::max(edge.from, edge.to))] = true;
+  }
+  if (2 * static_cast<size_t>(std::count(joined.begin(), joined.end(), true)) < joined.size())
+    between.assign(between.size(), false);
+  return between;
+}
+
 /// One flag an edge, then one a point edge.
 std::vector<bool> trusted_factors(const PoseGraph& graph, const PoseOptimizerOptions& options) {
-  std::vector<bool> trusted = options.trusted;
-  for (size_t k = trusted.size(); k < graph.edges.size(); ++k)
-    trusted.push_back(std::abs(graph.edges[k].to - graph.edges[k].from) == 1);
+  std::vector<bool> trusted =
+      options.trusted.empty() ? edges_of_the_sequence(graph) : options.trusted;
   trusted.insert(trusted.end(), options.trusted_points.begin(), options.trusted_points.end());
   trusted.resize(graph.edges.size() + graph.point_edges.size(), false);
   return trusted;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "consensus_growth.hpp"
 #include "hmt/graph/chi_squared.hpp"
@@ -93,6 +94,39 @@ SolveReport settle(PoseProblem<Chart>& problem, const std::vector<bool>& trusted
   return total;
 }
 
+/// Sum of min(chi2, limit), by which verdicts with different limits are compared.
+template <class Chart>
+double truncated_cost(const PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
+                      const std::vector<double>& limits) {
+  const std::vector<double> chi2 = problem.factor_chi2();
+  double cost = 0;
+  for (size_t k = 0; k < chi2.size(); ++k)
+    cost += trusted[k] ? chi2[k] : std::min(chi2[k], limits[k]);
+  return cost;
+}
+
+/// From a set that agrees.
+template <class Chart>
+SolveReport settle_from(PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
+                        const Consensus& consensus, std::vector<double> limits,
+                        int max_iterations) {
+  for (size_t k = 0; k < limits.size(); ++k)
+    if (!consensus.accepted[k]) limits[k] = consensus.limit_of_others;
+  return settle(problem, trusted, limits, max_iterations,
+                {consensus.accepted.begin(), consensus.accepted.end()});
+}
+
+/// By graduated non-convexity from the present placement.
+template <class Chart>
+SolveReport settle_gradually(PoseProblem<Chart>& problem, const std::vector<bool>& trusted,
+                             const std::vector<double>& limits, int max_iterations) {
+  std::vector<double> weights(trusted.size(), 1.0);
+  const int iterations = graduate(problem, trusted, limits, max_iterations, weights);
+  SolveReport report = settle(problem, trusted, limits, max_iterations, weights);
+  report.iterations += iterations;
+  return report;
+}
+
 }  // namespace
 
 double truncated_weight(double chi2, double limit, double mu) {
@@ -104,23 +138,20 @@ double truncated_weight(double chi2, double limit, double mu) {
 template <class Chart>
 SolveReport solve_gnc(const PoseGraph& graph, const std::vector<bool>& trusted, int max_iterations,
                       int threads, PoseProblem<Chart>& problem) {
-  std::vector<double> limits = limits_of<Chart>(graph);
-  const Placement given = problem.placement();
+  const std::vector<double> limits = limits_of<Chart>(graph);
   const double limit = chi_squared_quantile(Chart::kTangent, kInlierProbability);
+  PoseProblem<Chart> gradual = problem;
   const auto consensus = grow_consensus(graph, trusted, limit, threads, problem);
-  std::vector<double> weights(trusted.size(), 1.0);
-  int iterations = 0;
-  if (consensus) {
-    weights.assign(consensus->accepted.begin(), consensus->accepted.end());
-    for (size_t k = 0; k < limits.size(); ++k)
-      if (!consensus->accepted[k]) limits[k] = consensus->limit_of_others;
-  } else {
-    problem.set_placement(given);
-    iterations = graduate(problem, trusted, limits, max_iterations, weights);
+  SolveReport report;
+  if (consensus) report = settle_from(problem, trusted, *consensus, limits, max_iterations);
+  if (consensus && !consensus->guessed) return report;
+  SolveReport other = settle_gradually(gradual, trusted, limits, max_iterations);
+  if (!consensus ||
+      truncated_cost(gradual, trusted, limits) < truncated_cost(problem, trusted, limits)) {
+    report = std::move(other);
+    problem = std::move(gradual);
   }
-  SolveReport report = settle(problem, trusted, limits, max_iterations, weights);
-  report.iterations += iterations;
-  report.untrusted_start = !consensus;
+  report.untrusted_start = true;
   return report;
 }
 

@@ -13,11 +13,11 @@ namespace hmt::graph {
 /// truncation itself.
 double truncated_weight(double chi2, double limit, double mu);
 
-/// Minimizes the sum of min(chi2, limit) over the factors (edges, then point edges) that are not
-/// trusted plus chi2 over those that are, `limit` the 99.9 % quantile of chi2, so one true factor
-/// in a thousand is lost. `trusted` has one flag a factor. Starts from the consensus of the trusted
-/// edges where they determine all poses and there are no points (an edge beyond it has the limit of
-/// Consensus), and by graduated non-convexity [Yang 2020, Sec. V] from the present poses otherwise.
+/// Minimizes the sum of min(chi2, limit) over the factors that are not trusted plus chi2 over those
+/// that are, `limit` the 99.9 % quantile of chi2, so one true factor in a thousand is lost; one
+/// flag an edge, then one a point edge. Starts from a consensus (an edge beyond it has the limit of
+/// Consensus). Where none can be grown, or from a guess only, also by graduated non-convexity [Yang
+/// 2020, Sec. V] from the present placement; the lesser sum is kept.
 template <class Chart>
 SolveReport solve_gnc(const PoseGraph& graph, const std::vector<bool>& trusted, int max_iterations,
                       int threads, PoseProblem<Chart>& problem);

@@ -90,7 +90,7 @@ TEST_F(OptimizeCommand, WarnsThatNothingIsTrusted) {
   const CommandResult result =
       run_hmtmap("optimize " + input + " --robust gnc --json -o " + path("out.g2o"));
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("no trusted start"));
+  EXPECT_THAT(result.err, HasSubstr("a guess that was checked"));
   EXPECT_EQ(result.json().at("untrusted_start"), true);
 }
 
@@ -105,18 +105,18 @@ TEST_F(OptimizeCommand, KeepsTheBestOfSeveralStarts) {
 
 TEST_F(OptimizeCommand, SaysWhatItDoesWithBadInformationAndOtherTags) {
   std::string text = kTriangle;
-  for (int k = 0; k < 30; ++k) text += "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 -1\n";
+  for (int k = 0; k < 3000; ++k) text += "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 -1\n";
   text += "LANDMARK 1 2 3\nVERTEX_SE2 7 5 5 0\n";
   const CommandResult result =
       run_hmtmap("optimize " + file("in.g2o", text) + " --json -o " + path("out.g2o"));
   EXPECT_EQ(result.code, 3);
-  EXPECT_THAT(result.err, HasSubstr("30 information matrices have a negative eigenvalue"));
+  EXPECT_THAT(result.err, HasSubstr("3000 information matrices have a negative eigenvalue"));
   EXPECT_THAT(result.err, HasSubstr("(lines 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, ...)"));
   EXPECT_THAT(result.err, HasSubstr("LANDMARK"));
   EXPECT_THAT(result.err, HasSubstr("2 components"));
   const auto json = result.json();
-  EXPECT_EQ(json.at("input").at("weak_information").size(), 30u);
-  EXPECT_EQ(json.at("input").at("weak_information")[29].at("line"), 36);
+  EXPECT_EQ(json.at("input").at("weak_information").size(), 3000u);
+  EXPECT_EQ(json.at("input").at("weak_information")[2999].at("line"), 3006);
   EXPECT_EQ(json.at("input").at("components"), 2);
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <utility>
 
 namespace hmt::benchmarks {
 namespace {
@@ -57,7 +59,9 @@ Pose random_relative_pose(const graph::PoseGraph& graph, std::mt19937& generator
 CorruptedGraph add_false_loops(const graph::PoseGraph& clean, double share, int group_size,
                                FalsePose kind, unsigned seed) {
   std::mt19937 generator(seed);
-  CorruptedGraph corrupted{clean, {}, std::vector<bool>(clean.edges.size(), false)};
+  CorruptedGraph corrupted{clean, {}, std::vector<bool>(clean.edges.size(), false), {}};
+  corrupted.place.resize(clean.poses.size());
+  std::iota(corrupted.place.begin(), corrupted.place.end(), 0);
   std::vector<size_t> loops;
   for (size_t k = 0; k < clean.edges.size(); ++k) {
     corrupted.is_loop.push_back(std::abs(clean.edges[k].to - clean.edges[k].from) != 1);
@@ -90,6 +94,37 @@ CorruptedGraph add_false_loops(const graph::PoseGraph& clean, double share, int 
                                    T_world_false * clean.poses[static_cast<size_t>(edge.to)]);
     corrupted.is_false[loops[i]] = true;
   }
+  return corrupted;
+}
+
+CorruptedGraph cut_into_sessions(CorruptedGraph corrupted, int sessions) {
+  const auto nodes = static_cast<int>(corrupted.graph.poses.size());
+  CorruptedGraph cut{corrupted.graph, {}, {}, corrupted.place};
+  cut.graph.edges.clear();
+  for (size_t k = 0; k < corrupted.graph.edges.size(); ++k) {
+    const graph::PoseGraphEdge& edge = corrupted.graph.edges[k];
+    const int i = std::max(edge.from, edge.to);
+    if (!corrupted.is_loop[k] && i * sessions / nodes != (i - 1) * sessions / nodes) continue;
+    cut.graph.edges.push_back(edge);
+    cut.is_loop.push_back(corrupted.is_loop[k]);
+    cut.is_false.push_back(corrupted.is_false[k]);
+  }
+  return cut;
+}
+
+CorruptedGraph shuffle_nodes(CorruptedGraph corrupted, unsigned seed) {
+  std::mt19937 generator(seed);
+  graph::PoseGraph& graph = corrupted.graph;
+  std::vector<int>& place = corrupted.place;
+  for (size_t k = place.size(); k > 1; --k) std::swap(place[k - 1], place[generator() % k]);
+  std::vector<Pose> poses(place.size());
+  for (size_t k = 0; k < place.size(); ++k) poses[static_cast<size_t>(place[k])] = graph.poses[k];
+  graph.poses = std::move(poses);
+  for (graph::PoseGraphEdge& edge : graph.edges) {
+    edge.from = place[static_cast<size_t>(edge.from)];
+    edge.to = place[static_cast<size_t>(edge.to)];
+  }
+  for (int& node : graph.fixed) node = place[static_cast<size_t>(node)];
   return corrupted;
 }
 

@@ -13,6 +13,7 @@ struct CorruptedGraph {
   graph::PoseGraph graph;
   std::vector<bool> is_loop;   ///< one flag an edge: not between i and i+1
   std::vector<bool> is_false;  ///< one flag an edge
+  std::vector<int> place;      ///< node of `graph` that a node of the clean graph has become
 };
 
 /// What the false loops look like.
@@ -27,5 +28,13 @@ enum class FalsePose {
 /// `clean` are taken for the truth within a group.
 CorruptedGraph add_false_loops(const graph::PoseGraph& clean, double share, int group_size,
                                FalsePose kind, unsigned seed);
+
+/// The same graph without the edge between i and i+1 at `sessions` - 1 evenly spaced places: drives
+/// that only their loops join.
+CorruptedGraph cut_into_sessions(CorruptedGraph corrupted, int sessions);
+
+/// The same graph with its nodes in random order, so that their numbers say nothing about which
+/// edges are odometry.
+CorruptedGraph shuffle_nodes(CorruptedGraph corrupted, unsigned seed);
 
 }  // namespace hmt::benchmarks

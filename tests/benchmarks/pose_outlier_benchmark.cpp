@@ -44,53 +44,93 @@ struct Case {
   int group_size;
   FalsePose kind;
   unsigned seed;
+  bool shuffled;  ///< nodes in random order: nothing tells which edges are odometry
+  int sessions;   ///< drives that only loops join
 };
 
+/// Share of the edges that `keep` picks and that were accepted.
+template <class Predicate>
+double share_accepted(const std::vector<bool>& inlier, const Predicate& keep) {
+  int accepted = 0;
+  int all = 0;
+  for (size_t k = 0; k < inlier.size(); ++k) {
+    if (!keep(k)) continue;
+    ++all;
+    accepted += inlier[k] ? 1 : 0;
+  }
+  return all > 0 ? static_cast<double>(accepted) / all : 1;
+}
+
+/// Poses of the nodes in the order of the graph that was not shuffled.
+std::vector<Pose> in_order_of(const std::vector<Pose>& poses, const std::vector<int>& place) {
+  std::vector<Pose> ordered;
+  for (const int node : place) ordered.push_back(poses[static_cast<size_t>(node)]);
+  return ordered;
+}
+
+graph::PoseGraph clean_graph(const std::string& folder, const std::string& name) {
+  return graph::read_g2o(folder + "/" + name + ".g2o").graph;
+}
+
 void run_case(const std::string& name, const graph::PoseGraph& clean, const Case& c) {
-  const CorruptedGraph corrupted = add_false_loops(clean, c.share, c.group_size, c.kind, c.seed);
+  CorruptedGraph corrupted = add_false_loops(clean, c.share, c.group_size, c.kind, c.seed);
+  if (c.sessions > 1) corrupted = cut_into_sessions(std::move(corrupted), c.sessions);
+  const std::vector<Pose> oracle = oracle_poses(corrupted);
+  if (c.shuffled) corrupted = shuffle_nodes(std::move(corrupted), c.seed);
   graph::PoseOptimizerOptions options;
   options.robust = graph::RobustMethod::gnc;
+  options.initialization = graph::Initialization::best;
   const graph::PoseOptimizerResult result = optimize(corrupted.graph, options);
-  int kept_true = 0;
-  int kept = 0;
-  int true_loops = 0;
-  for (size_t k = 0; k < corrupted.is_loop.size(); ++k) {
-    if (!corrupted.is_loop[k]) continue;
-    true_loops += corrupted.is_false[k] ? 0 : 1;
-    kept += result.report.inlier[k] ? 1 : 0;
-    kept_true += result.report.inlier[k] && !corrupted.is_false[k] ? 1 : 0;
+  const std::vector<bool>& inlier = result.report.inlier;
+  const auto is_true_loop = [&](size_t k) {
+    return corrupted.is_loop[k] && !corrupted.is_false[k];
+  };
+  const auto is_odometry = [&](size_t k) { return !corrupted.is_loop[k]; };
+  double kept = 0;
+  double kept_true = 0;
+  for (size_t k = 0; k < inlier.size(); ++k) {
+    kept += corrupted.is_loop[k] && inlier[k] ? 1 : 0;
+    kept_true += is_true_loop(k) && inlier[k] ? 1 : 0;
   }
-  const std::vector<Pose> oracle = oracle_poses(corrupted);
+  const std::vector<Pose> poses = in_order_of(result.poses, corrupted.place);
   std::printf(
-      "%-14s %3.0f %% %d %-10s %2u  precision %.4f recall %.4f  ATE to clean %.4f m (oracle %.4f), "
-      "to oracle %.4f m  %6.2f s\n",
+      "%-14s %3.0f %% %d %-10s %2u  precision %.4f recall %.4f odometry %.4f  ATE to clean %.4f m "
+      "(oracle %.4f), to oracle %.4f m  %6.2f s\n",
       name.c_str(), 100 * c.share, c.group_size,
       c.kind == FalsePose::anywhere ? "anywhere" : "same_place", c.seed,
-      static_cast<double>(kept_true) / std::max(1, kept),
-      static_cast<double>(kept_true) / std::max(1, true_loops),
-      aligned_rmse(result.poses, clean.poses), aligned_rmse(oracle, clean.poses),
-      aligned_rmse(result.poses, oracle), result.report.solve_s);
+      kept_true / std::max(1.0, kept), share_accepted(inlier, is_true_loop),
+      share_accepted(inlier, is_odometry), aligned_rmse(poses, clean.poses),
+      aligned_rmse(oracle, clean.poses), aligned_rmse(poses, oracle), result.report.solve_s);
   std::fflush(stdout);
 }
 
 }  // namespace
 }  // namespace hmt::benchmarks
 
-// Arguments: the number of seeds, the folder of the graphs, and the names of those to run.
+// Arguments: the seeds as FIRST..LAST (or LAST, from 1), `chain`, `shuffled` (nodes in random
+// order) or a number of sessions, the folder of the graphs, and the names of those to run.
 int main(int argc, char** argv) {
   using namespace hmt;
   using benchmarks::FalsePose;
-  const auto seeds = static_cast<unsigned>(argc > 1 ? std::atoi(argv[1]) : 1);
-  for (int i = 3; i < argc; ++i) {
-    graph::G2oFile file = graph::read_g2o(std::string(argv[2]) + "/" + argv[i] + ".g2o");
+  if (argc < 4) return 2;
+  const std::string seeds = argv[1];
+  const size_t dots = seeds.find("..");
+  const int first = dots == std::string::npos ? 1 : std::atoi(seeds.c_str());
+  const int last = std::atoi(seeds.c_str() + (dots == std::string::npos ? 0 : dots + 2));
+  const bool shuffled = std::string(argv[2]) == "shuffled";
+  const int sessions = std::max(1, std::atoi(argv[2]));
+  for (int i = 4; i < argc; ++i) {
+    graph::PoseGraph clean = benchmarks::clean_graph(argv[3], argv[i]);
     graph::PoseOptimizerOptions options;
     options.initialization = graph::Initialization::best;
-    file.graph.poses = optimize(file.graph, options).poses;
-    for (unsigned seed = 1; seed <= seeds; ++seed)
+    clean.poses = optimize(clean, options).poses;
+    for (int seed = first; seed <= last; ++seed)
       for (const FalsePose kind : {FalsePose::anywhere, FalsePose::same_place})
         for (const int group_size : {1, 5})
           for (const double share : {0.1, 0.3, 0.5})
-            benchmarks::run_case(argv[i], file.graph, {share, group_size, kind, seed});
+            benchmarks::run_case(
+                argv[i], clean,
+                {share, group_size, kind, static_cast<unsigned>(seed), shuffled, sessions});
   }
   return 0;
 }

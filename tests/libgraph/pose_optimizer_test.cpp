@@ -125,8 +125,16 @@ TEST(PoseOptimizer, GncRefusesTheFalseLoopAlone) {
   }
 }
 
-TEST(PoseOptimizer, GncWithoutTrustedEdgesRefusesTheFalseLoopAlone) {
+// Loops over two and over three steps: a false one closes no cycle, each other edge several.
+PoseGraph braided_graph() {
   PoseGraph graph = noisy_graph(Space::se2, 60, 2, 0.02, 11);
+  for (const PoseGraphEdge& e : noisy_graph(Space::se2, 60, 3, 0.02, 12).edges)
+    if (e.from - e.to == 3) graph.edges.push_back(e);
+  return graph;
+}
+
+TEST(PoseOptimizer, GncWithoutTrustedEdgesRefusesTheFalseLoopAlone) {
+  PoseGraph graph = braided_graph();
   std::vector<bool> expected(graph.edges.size(), true);
   graph.edges[70].T_from_to = graph.edges[70].T_from_to * Pose::planar(1, 0, 0);
   expected[70] = false;
@@ -158,6 +166,62 @@ TEST(PoseOptimizer, GncKeepsTheTrueLoopsAmongAsManyFalseOnes) {
   }
 }
 
+// Two drives side by side; only loops join them, more of them false than true.
+//
+//   40 --- 41 --- 42 --- 43 --- ... --- 79
+//    |                    |
+//    0 ---  1 ---  2 ---  3 --- ... --- 39
+TEST(PoseOptimizer, GncJoinsTwoDrivesByTheLoopsThatAgree) {
+  for (const Space space : {Space::se2, Space::se3}) {
+    std::mt19937 generator(5);
+    std::normal_distribution<double> normal(0, 0.01);
+    PoseGraph graph;
+    graph.space = space;
+    const auto truth = [](int i) { return Pose::planar(i % 40, i < 40 ? 0 : 1, 0); };
+    const auto measure = [&](int from, int to) {
+      Vector6d noise;
+      for (double& value : noise) value = normal(generator);
+      if (space == Space::se2) noise.segment<3>(2).setZero();
+      const Pose T_from_to = relative_pose(truth(from), truth(to));
+      graph.edges.push_back(edge(from, to, boxplus(T_from_to, noise), 1e4));
+    };
+    graph.poses.resize(80);
+    for (int i = 0; i < 79; ++i)
+      if (i != 39) measure(i, i + 1);
+    for (int i = 0; i < 40; i += 6) measure(i, i + 40);
+    std::vector<bool> expected(graph.edges.size(), true);
+    // A stretch of five poses taken for another place.
+    for (int k = 0; k < 5; ++k)
+      graph.edges.push_back(edge(10 + k, 65 + k, Pose::planar(0, 3, 0), 1e4));
+    for (int k = 0; k < 5; ++k)
+      graph.edges.push_back(edge(7 * k, 50 + 5 * k, Pose::planar(3 * k, 9, k), 1e4));
+    expected.resize(graph.edges.size(), false);
+    PoseOptimizerOptions options;
+    options.robust = RobustMethod::gnc;
+    options.initialization = Initialization::best;
+    const PoseOptimizerReport report = optimize(graph, options).report;
+    EXPECT_EQ(report.inlier, expected);
+    EXPECT_TRUE(report.untrusted_start);
+  }
+}
+
+// Edges between i and i+1 that are there by chance are not odometry.
+TEST(PoseOptimizer, GncTrustsNoNumberingThatSaysNothing) {
+  PoseGraph graph = braided_graph();
+  const auto place = [](int node) { return node * 37 % 60; };
+  std::vector<Pose> poses(graph.poses.size());
+  for (int i = 0; i < 60; ++i)
+    poses[static_cast<size_t>(place(i))] = graph.poses[static_cast<size_t>(i)];
+  graph.poses = poses;
+  for (PoseGraphEdge& e : graph.edges) e = edge(place(e.from), place(e.to), e.T_from_to, 2500);
+  std::vector<bool> expected(graph.edges.size(), true);
+  graph.edges.push_back(edge(20, 21, Pose::planar(5, 5, 1), 2500));
+  expected.push_back(false);
+  PoseOptimizerOptions options;
+  options.robust = RobustMethod::gnc;
+  EXPECT_EQ(optimize(graph, options).report.inlier, expected);
+}
+
 TEST(PoseOptimizer, GncNeverDoubtsATrustedEdge) {
   PoseOptimizerOptions options;
   options.robust = RobustMethod::gnc;
@@ -186,6 +250,31 @@ TEST(PoseOptimizer, BestStartBeatsAWrongGuess) {
   const PoseOptimizerReport report = optimize(graph, options).report;
   EXPECT_EQ(report.start, Initialization::chordal);
   EXPECT_NEAR(report.chi2, chi2, 1e-9 * chi2);
+}
+
+// One loop of 3000 steps with a noisy heading: where it closes, the poses of the drive are far off.
+TEST(PoseOptimizer, ClosesALongRingFromItsOwnGuessAndFromNothing) {
+  constexpr int kNodes = 3000;
+  const double turn = 2 * std::numbers::pi / kNodes;
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal(0, 1);
+  PoseGraph graph;
+  graph.poses.emplace_back();
+  for (int i = 0; i < kNodes; ++i) {
+    const Pose T = Pose::planar(1 + 0.002 * normal(generator), 0.002 * normal(generator),
+                                turn + 0.001 * normal(generator));
+    graph.edges.push_back(edge(i, (i + 1) % kNodes, T, 1 / (0.002 * 0.002)));
+    graph.edges.back().information(5, 5) = 1e6;
+    if (i + 1 < kNodes) graph.poses.push_back(graph.poses.back() * T);
+  }
+  PoseOptimizerOptions options;
+  options.initialization = Initialization::best;
+  const PoseOptimizerReport from_drive = optimize(graph, options).report;
+  graph.poses.assign(kNodes, Pose{});
+  const PoseOptimizerReport from_nothing = optimize(graph, options).report;
+  EXPECT_EQ(from_drive.termination, Termination::converged);
+  EXPECT_NEAR(from_drive.chi2, from_nothing.chi2, 1e-6 * from_drive.chi2);
+  EXPECT_LT(from_drive.chi2, 20);
 }
 
 // Every heading off by as much as 1.2 rad, to and fro: a full Gauss-Newton step raises the cost.

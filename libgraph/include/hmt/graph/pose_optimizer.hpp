@@ -31,7 +31,7 @@ struct PoseOptimizerOptions {
   /// Upper limit of the iterations of one solve, >= 1.
   int max_iterations = 100;
   /// With gnc: edges that are never doubted (odometry), one flag an edge; empty: edges between i
-  /// and i+1.
+  /// and i+1, if they join at least half of the nodes to the one before.
   std::vector<bool> trusted;
   /// With gnc: the same for point edges; empty: all of them are doubted.
   std::vector<bool> trusted_points;
@@ -74,9 +74,9 @@ struct PoseOptimizerReport {
   std::vector<bool> inlier;                      ///< verdict on every edge; all true without gnc
   std::vector<double> point_chi2;                ///< the same of every point edge
   std::vector<bool> point_inlier;
-  /// With gnc: the trusted edges do not determine all poses, so no set that agrees could be grown
-  /// from them. The verdict is then weak: on intel without its chain, with one loop in ten false,
-  /// three of ten true edges were refused.
+  /// With gnc: the trusted edges do not determine all poses, so what joins them is a guess that was
+  /// checked. The verdict is sound where a few trusted drives are to be joined, and weak where no
+  /// edge is trusted.
   bool untrusted_start = false;
 };
 
