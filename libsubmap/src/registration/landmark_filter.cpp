@@ -14,10 +14,13 @@ constexpr int kMostLandmarks = 64;
 
 }  // namespace
 
-LandmarkFilter::LandmarkFilter(Space space, const Pose& T_track_robot)
+LandmarkFilter::LandmarkFilter(Space space, const Pose& T_track_robot,
+                               const OdometryErrors& deviation)
     : rows_(space == Space::se2 ? 2 : 3),
       T_track_robot_(T_track_robot),
-      covariance_(Rows::Zero(kPose, kPose)) {}
+      covariance_(Rows::Zero(kPose + kErrors, kPose + kErrors)) {
+  covariance_.diagonal().tail<kErrors>() = deviation.cwiseAbs2();
+}
 
 void LandmarkFilter::predict(const Pose& T_before_now, const Matrix6d& covariance) {
   T_track_robot_ = T_track_robot_ * T_before_now;
@@ -25,6 +28,18 @@ void LandmarkFilter::predict(const Pose& T_before_now, const Matrix6d& covarianc
   covariance_.topRows<kPose>() = (F * covariance_.topRows<kPose>()).eval();
   covariance_.leftCols<kPose>() = (covariance_.leftCols<kPose>() * F.transpose()).eval();
   covariance_.topLeftCorner<kPose, kPose>() += covariance;
+}
+
+void LandmarkFilter::predict_told(const Pose& told, double duration_s, const Matrix6d& covariance) {
+  const Pose step = without_errors(told, duration_s, errors_);
+  predict(step, covariance);
+  const Eigen::Matrix<double, kPose, kErrors> J = by_odometry_errors(told, duration_s, errors_);
+  const Eigen::Matrix<double, kPose, Eigen::Dynamic> change =
+      J * covariance_.middleRows<kErrors>(kPose);
+  covariance_.topRows<kPose>() += change;
+  covariance_.topLeftCorner<kPose, kPose>() +=
+      change.leftCols<kPose>().transpose() + J * change.middleCols<kErrors>(kPose).transpose();
+  covariance_.leftCols<kPose>() = covariance_.topRows<kPose>().transpose().eval();
 }
 
 LandmarkFilter::Prediction LandmarkFilter::predict_measurement(int slot) const {
@@ -73,6 +88,7 @@ void LandmarkFilter::update(int landmark, const MeasuredLandmark& measured) {
   covariance_.noalias() -= K * PHt.transpose();
   covariance_ = ((covariance_ + covariance_.transpose()) / 2).eval();
   T_track_robot_ = graph::boxplus(T_track_robot_, step.head<kPose>());
+  errors_ += step.segment<kErrors>(kPose);
   for (const auto& [number, at] : slot_of_)
     p_track_[static_cast<size_t>(at)] += step.segment<3>(row_of(at));
 }

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "landmark_noise.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "hmt/graph/chi_squared.hpp"
+#include "landmark_filter.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -29,10 +33,6 @@ constexpr double kNewView = 4;
 
 double turn_rad(const Pose& T) {
   return 2 * std::atan2(T.rotation.vec().norm(), std::abs(T.rotation.w()));
-}
-
-bool lacks_covariance(const Landmark& landmark) {
-  return landmark.covariance_sensor.isZero(0);
 }
 
 Eigen::Matrix3d covariance_of(Space space, const Eigen::Vector3d& position_sensor) {
@@ -97,25 +97,84 @@ struct Views {
   std::vector<int> size;        ///< by view
 };
 
+void fill_in_landmarks(std::vector<Observation>& observations, Space space, const Views& views) {
+  size_t sighting = 0;
+  for (Observation& observation : observations)
+    for (LandmarkReading& reading : observation.landmark_readings)
+      for (Landmark& landmark : reading.landmarks) {
+        const int same_view = views.size[views.view_of[sighting++]];
+        if (landmark.covariance_sensor.isZero(0))
+          landmark.covariance_sensor = same_view * covariance_of(space, landmark.position_sensor);
+      }
+}
+
+/// A sighting that a filter with the right noise hardly ever makes is not learnt from.
+constexpr double kFalseSighting = 0.999;
+
+void learn(const Observation& observation, double gate2, LandmarkFilter& filter) {
+  for (const LandmarkReading& reading : observation.landmark_readings)
+    for (const Landmark& landmark : reading.landmarks) {
+      if (landmark.id == kUnknownLandmark) continue;
+      const Eigen::Matrix3d R = reading.T_robot_sensor.rotation_matrix();
+      const MeasuredLandmark measured{reading.T_robot_sensor * landmark.position_sensor,
+                                      R * landmark.covariance_sensor * R.transpose()};
+      const auto id = static_cast<int>(landmark.id);
+      const auto innovation = filter.innovation(id, measured);
+      if (!innovation)
+        filter.insert(id, measured);
+      else if (innovation->mahalanobis_squared <= gate2)
+        filter.update(id, measured);
+    }
+}
+
+/// What a filter over the whole log makes out, by the named landmarks, of the odometry of which the
+/// log does not tell the covariance.
+OdometryErrors find_odometry_errors(const std::vector<Observation>& observations) {
+  LandmarkFilter filter(Space::se2, Pose{}, odometry_error_deviations());
+  const double gate2 = graph::chi_squared_quantile(2, kFalseSighting);
+  const Observation* latest = &observations.front();
+  for (const Observation& observation : observations) {
+    const Pose step = graph::relative_pose(latest->T_odom_robot, observation.T_odom_robot);
+    if (observation.motion_covariance)
+      filter.predict(step, *observation.motion_covariance);
+    else
+      filter.predict_told(step, observation.stamp_s - latest->stamp_s,
+                          covariance_of_step(Space::se2, step));
+    latest = &observation;
+    learn(observation, gate2, filter);
+  }
+  return filter.odometry_errors();
+}
+
+void fill_in_motion(std::vector<Observation>& observations, Space space,
+                    const OdometryErrors& errors) {
+  Pose T_told_latest = observations.front().T_odom_robot;
+  double stamp_latest_s = observations.front().stamp_s;
+  Pose T_odom_robot = T_told_latest;
+  for (Observation& observation : observations) {
+    Pose step = graph::relative_pose(T_told_latest, observation.T_odom_robot);
+    if (!observation.motion_covariance) {
+      observation.motion_covariance = covariance_of_step(space, step);
+      step = without_errors(step, observation.stamp_s - stamp_latest_s, errors);
+    }
+    T_told_latest = observation.T_odom_robot;
+    stamp_latest_s = observation.stamp_s;
+    observation.T_odom_robot = T_odom_robot = T_odom_robot * step;
+  }
+}
+
 }  // namespace
 
 std::vector<Observation> with_noise(std::vector<Observation> observations, Space space,
                                     const TrackOptions& options) {
-  const Views views(observations, options);
-  Pose T_odom_latest = observations.front().T_odom_robot;
-  size_t sighting = 0;
-  for (Observation& observation : observations) {
-    if (!observation.motion_covariance)
-      observation.motion_covariance =
-          covariance_of_step(space, graph::relative_pose(T_odom_latest, observation.T_odom_robot));
-    T_odom_latest = observation.T_odom_robot;
-    for (LandmarkReading& reading : observation.landmark_readings)
-      for (Landmark& landmark : reading.landmarks) {
-        const int same_view = views.size[views.view_of[sighting++]];
-        if (lacks_covariance(landmark))
-          landmark.covariance_sensor = same_view * covariance_of(space, landmark.position_sensor);
-      }
-  }
+  fill_in_landmarks(observations, space, Views(observations, options));
+  // The first observation has no motion before it.
+  const bool all_told = std::all_of(observations.begin() + 1, observations.end(),
+                                    [](const Observation& o) { return o.motion_covariance; });
+  const OdometryErrors errors = all_told || space == Space::se3
+                                    ? OdometryErrors::Zero().eval()
+                                    : find_odometry_errors(observations);
+  fill_in_motion(observations, space, errors);
   return observations;
 }
 

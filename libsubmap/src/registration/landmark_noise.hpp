@@ -16,6 +16,9 @@ namespace hmt::submap {
 ///
 /// For the same reason sightings of a named landmark from one view, until the robot has moved by
 /// some keyframes, count as one: each gets the variance of one times their number.
+///
+/// Odometry in the plane of which the log does not tell the covariance is freed of what it does
+/// wrong always, as a filter over the log and its named landmarks makes it out.
 std::vector<Observation> with_noise(std::vector<Observation> observations, Space space,
                                     const TrackOptions& options);
 

@@ -8,9 +8,6 @@
 namespace hmt::submap {
 namespace {
 
-// Before anything is learnt: five percent of length and turn, 3 deg per metre, half a degree per
-// second.
-const Eigen::Vector4d kSigma0(0.05, 0.05, 0.05, 0.01);
 // What a carpet, a load or a warm gyro changes in a hundred metres, or in a hundred seconds.
 const Eigen::Vector4d kWander(0.003, 0.003, 0.01, 0.0005);
 constexpr double kWanderLength_m = 100;
@@ -18,11 +15,8 @@ constexpr double kWanderTime_s = 100;
 // 99.9 % of chi2 with two degrees of freedom: a wheel that slipped, which says nothing of the rest.
 constexpr double kGate2 = 13.8;
 
-}  // namespace
-
-OdometryCalibration::OdometryCalibration() : covariance_(kSigma0.cwiseAbs2().asDiagonal()) {}
-
-Eigen::Matrix<double, 2, 4> OdometryCalibration::jacobian(const Pose& step, double duration_s) {
+/// Of the correction of x and yaw by the errors.
+Eigen::Matrix<double, 2, 4> jacobian(const Pose& step, double duration_s) {
   const double driven_m = step.translation.x();
   Eigen::Matrix<double, 2, 4> J = Eigen::Matrix<double, 2, 4>::Zero();
   J(0, 0) = driven_m;
@@ -32,14 +26,36 @@ Eigen::Matrix<double, 2, 4> OdometryCalibration::jacobian(const Pose& step, doub
   return J;
 }
 
-Pose OdometryCalibration::corrected(const Pose& step, double duration_s) const {
-  const Eigen::Vector2d correction = jacobian(step, duration_s) * state_;
+}  // namespace
+
+OdometryErrors odometry_error_deviations() {
+  return {0.05, 0.05, 0.05, 0.01};
+}
+
+Pose without_errors(const Pose& step, double duration_s, const OdometryErrors& errors) {
+  const Eigen::Vector2d correction = jacobian(step, duration_s) * errors;
   // The turn happens all along the step: half of it before.
   const Pose half = Pose::planar(0, 0, correction[1] / 2);
   Pose scaled = step;
-  scaled.translation.head<2>() *= 1 + state_[0];
+  scaled.translation.head<2>() *= 1 + errors[0];
   return half * scaled * half;
 }
+
+Eigen::Matrix<double, 6, 4> by_odometry_errors(const Pose& step, double duration_s,
+                                               const OdometryErrors& errors) {
+  const Pose corrected = without_errors(step, duration_s, errors);
+  const Eigen::Matrix3d R_end_start = corrected.rotation_matrix().transpose();
+  const Eigen::Vector3d& t = corrected.translation;
+  Eigen::Matrix<double, 6, 4> J = Eigen::Matrix<double, 6, 4>::Zero();
+  J.col(0).head<3>() = R_end_start * Eigen::Vector3d(t.x(), t.y(), 0) / (1 + errors[0]);
+  const Eigen::Matrix<double, 1, 4> turn = jacobian(step, duration_s).row(1);
+  J.topRows<3>() += R_end_start * Eigen::Vector3d(-t.y(), t.x(), 0) / 2 * turn;
+  J.row(5) = turn;
+  return J;
+}
+
+OdometryCalibration::OdometryCalibration()
+    : covariance_(odometry_error_deviations().cwiseAbs2().asDiagonal()) {}
 
 void OdometryCalibration::learn(const Pose& step, double duration_s, const Eigen::Vector2d& error,
                                 const Eigen::Matrix2d& covariance) {

@@ -26,6 +26,20 @@ TEST(OdometryCalibration, ChangesNothingBeforeItLearns) {
   EXPECT_LT(graph::boxminus(corrected, step).norm(), 1e-12);
 }
 
+TEST(OdometryErrors, DerivativeIsThatOfTheCorrectedStep) {
+  const Pose step = Pose::planar(0.4, 0.05, 0.3);
+  const OdometryErrors errors(0.02, -0.1, 0.05, 0.01);
+  const auto J = by_odometry_errors(step, 0.5, errors);
+  constexpr double kStep = 1e-6;
+  for (int k = 0; k < 4; ++k) {
+    OdometryErrors moved = errors;
+    moved[k] += kStep;
+    const Vector6d change =
+        graph::boxminus(without_errors(step, 0.5, moved), without_errors(step, 0.5, errors));
+    EXPECT_LT((change / kStep - J.col(k)).norm(), 1e-5) << k;
+  }
+}
+
 TEST(OdometryCalibration, LearnsLengthTurnPerMetreAndTurnPerTurn) {
   const auto wrong = [](double x_m, double yaw_rad) {
     return std::pair(Pose::planar(x_m / 1.02, 0, yaw_rad / 1.03 - 0.01 * x_m),
