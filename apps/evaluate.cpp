@@ -98,6 +98,9 @@ void add_map_quality(const Arguments& arguments, nlohmann::ordered_json& json, s
     text += to_text("by reference", quality);
   }
   const submap::MapQuality quality = submap::map_quality(file, own);
+  if (quality.beams == 0)
+    throw graph::InputError(arguments.trajectory +
+                            ": --map-quality needs scans or clouds, and the map has none");
   json["map_quality"] = to_json(quality);
   text += to_text("by map", quality);
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The hmtmap authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "hmt/submap/pipeline.hpp"
@@ -22,6 +23,21 @@ TEST(LandmarkMap, IsComparedByTheInformationThatSubmapsShareAndByCopiesOfLandmar
   EXPECT_LT(methods.at("ncut").at("information_loss"), methods.at("fixed").at("information_loss"));
   EXPECT_LT(methods.at("ncut").at("landmark_copies"), methods.at("fixed").at("landmark_copies"));
   EXPECT_GT(methods.at("ncut").at("landmark_information_loss"), 0);
+}
+
+TEST(LandmarkMap, HasNoWalls) {
+  const test::TemporaryFolder folder;
+  const test::Park park(folder.path() / "park.txt");
+  const std::string map = (folder.path() / "park.hmt").string();
+  ASSERT_EQ(test::run_hmtmap("map " + (folder.path() / "park.txt").string() + " -o " + map).code,
+            0);
+  for (const std::string command :
+       {"evaluate " + map + " --map-quality",
+        "export " + map + " --only map -o " + (folder.path() / "out").string()}) {
+    const auto result = test::run_hmtmap(command);
+    EXPECT_EQ(result.code, 1) << command;
+    EXPECT_THAT(result.err, testing::HasSubstr(command[1] == 'v' ? "needs scans" : "no surfaces"));
+  }
 }
 
 TEST(LandmarkMap, OfVictoriaParkHasAllItsTrees) {
