@@ -31,7 +31,7 @@ TEST(LandmarkMap, HasNoWalls) {
   const std::string map = (folder.path() / "park.hmt").string();
   ASSERT_EQ(test::run_hmtmap("map " + (folder.path() / "park.txt").string() + " -o " + map).code,
             0);
-  for (const std::string command :
+  for (const std::string& command :
        {"evaluate " + map + " --map-quality",
         "export " + map + " --only map -o " + (folder.path() / "out").string()}) {
     const auto result = test::run_hmtmap(command);
