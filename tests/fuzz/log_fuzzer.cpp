@@ -30,6 +30,10 @@ void check(const Observation& observation) {
     for (const auto& p_sensor : reading.points_sensor)
       if (!p_sensor.allFinite()) std::abort();
   }
+  for (const LandmarkReading& reading : observation.landmark_readings)
+    for (const Landmark& landmark : reading.landmarks)
+      if (!landmark.position_sensor.allFinite() || !landmark.covariance_sensor.allFinite())
+        std::abort();
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The hmtmap authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes the seed corpora of the fuzzers by our own writers: make_seeds FOLDER makes FOLDER/log,
-// FOLDER/cloud and FOLDER/message. Small files: a fuzzer gets further with them.
+// FOLDER/mrclam, FOLDER/cloud and FOLDER/message. Small files: a fuzzer gets further with them.
 #include <lzf.h>
 
 #include <cstdio>
@@ -43,6 +43,9 @@ void write_logs(const fs::path& folder) {
     write_file(folder / (name + ".mcap"), mcap_file(ros2, {"none", 0}));
     write_sqlite_bag(folder / (name + ".db3"), ros2);
   }
+  write_file(folder / "landmarks.txt",
+             "ODOMETRY 0 1 1 0 0.5 0.04 0 0 0.04 0 0.01\nLANDMARK 1 7 2 0.5 0.4 0.1 0.3\n"
+             "ODOMETRY 1 2 1 0 -0.5 0.04 0 0 0.04 0 0.01\nLANDMARK 2 7 1 0.5 0.4 0 0.3\n");
   submap::Simulation simulation(rooms);
   submap::CarmenWriter carmen(folder / "log.carmen");
   for (size_t k = 0; k < kScans; ++k) {
@@ -53,6 +56,14 @@ void write_logs(const fs::path& folder) {
                observation.T_odom_robot, observation.stamp_s);
   }
   carmen.commit();
+}
+
+/// The files of an MRCLAM folder, each ended by a zero.
+void write_mrclam(const fs::path& folder) {
+  const std::string barcodes = "# Subject Barcode\n 1 5\n 6 63\n 7 81\n";
+  const std::string odometry = "10 0.5 0.1\n11 0.5 -0.1\n12 0 0\n";
+  const std::string measurements = "11 63 2 0\n11 81 1 1.5\n11.5 5 1 0\n12 63 2 0.1\n";
+  write_file(folder / "folder", barcodes + '\0' + odometry + '\0' + measurements);
 }
 
 void write_clouds(const fs::path& folder) {
@@ -96,9 +107,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
-  for (const char* name : {"log", "cloud", "message"})
+  for (const char* name : {"log", "mrclam", "cloud", "message"})
     std::filesystem::create_directories(folder / name);
   hmt::test::write_logs(folder / "log");
+  hmt::test::write_mrclam(folder / "mrclam");
   hmt::test::write_clouds(folder / "cloud");
   hmt::test::write_messages(folder / "message");
 }
