@@ -5,11 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
+#include <string>
 
 #include "hmt/submap/log/log_reader.hpp"
 
