@@ -23,9 +23,13 @@ using Neighbor = graph::WeightedGraph::Neighbor;
 // Neighbors that are registered: consecutive keyframes carry the chain and two more stiffen it; a
 // revisit is tied twice, which is enough to average its noise while a place seen ten times does not
 // cost a hundred registrations.
-constexpr int kSameVisit = 4;
-constexpr int kOtherVisit = 2;
+constexpr size_t kSameVisit = 4;
+constexpr size_t kOtherVisit = 2;
 constexpr int kVisits = 5;
+// A registration that is there counts as one of these if its overlap is among the best so many
+// times as many: which of two like pairs overlaps more changes with every breath of the poses, and
+// another registration each time would tell nothing new.
+constexpr size_t kNearlyBest = 2;
 // A registration must explain this share of the source's points relative to what the overlap
 // promises.
 constexpr double kMinExplained = 0.6;
@@ -48,11 +52,30 @@ std::vector<std::vector<Neighbor>> visits(std::span<const Neighbor> neighbors, d
   return runs;
 }
 
+using Pairs = std::set<std::pair<int, int>>;
+
+/// The pairs of a keyframe with the best `most` of a visit, fewer where some are there.
+void add_best(int keyframe, std::span<const Neighbor> visit, size_t most, const Pairs& there,
+              Pairs& pairs) {
+  const auto pair_of = [&](const Neighbor& n) { return std::pair(std::minmax(keyframe, n.node)); };
+  const auto likely = visit.first(std::min(visit.size(), kNearlyBest * most));
+  auto count = static_cast<size_t>(std::count_if(
+      likely.begin(), likely.end(), [&](const Neighbor& n) { return there.contains(pair_of(n)); }));
+  for (const Neighbor& n : visit.first(std::min(visit.size(), most))) {
+    if (count >= most) return;
+    if (there.contains(pair_of(n))) continue;
+    pairs.insert(pair_of(n));
+    ++count;
+  }
+}
+
 /// Pairs a < b that are worth a registration, ordered.
 std::vector<std::pair<int, int>> pairs_to_register(const graph::WeightedGraph& overlap,
                                                    double min_overlap,
                                                    std::span<const Constraint> known) {
-  std::set<std::pair<int, int>> pairs;
+  Pairs there;
+  for (const Constraint& c : known) there.emplace(c.a, c.b);
+  Pairs pairs;
   for (int i = 0; i < overlap.num_nodes(); ++i) {
     auto runs = visits(overlap.neighbors(i), min_overlap);
     const auto is_own = [i](const std::vector<Neighbor>& run) {
@@ -65,11 +88,9 @@ std::vector<std::pair<int, int>> pairs_to_register(const graph::WeightedGraph& o
     for (const auto& run : runs) {
       const bool own = is_own(run);
       if (!own && ++others > kVisits) continue;
-      const size_t take = std::min(run.size(), static_cast<size_t>(own ? kSameVisit : kOtherVisit));
-      for (size_t k = 0; k < take; ++k) pairs.insert(std::minmax(i, run[k].node));
+      add_best(i, run, own ? kSameVisit : kOtherVisit, there, pairs);
     }
   }
-  for (const Constraint& c : known) pairs.erase({c.a, c.b});
   return {pairs.begin(), pairs.end()};
 }
 
