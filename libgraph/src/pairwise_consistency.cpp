@@ -5,6 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "hmt/graph/chi_squared.hpp"
@@ -15,6 +17,11 @@
 
 namespace hmt::graph {
 namespace {
+
+/// Loops that each is compared with, in the order of the poses that they lead to. The covariance of
+/// the trajectory between loops that lie farther apart is so large that hardly any two contradict
+/// each other.
+constexpr size_t kCompared = 500;
 
 /// A relative pose and its covariance, in the frame that it leads to.
 struct UncertainPose {
@@ -48,22 +55,31 @@ class ConsistencyTest {
     for (const PoseGraphEdge& loop : loops) measured_.push_back(measured<Chart>(loop));
   }
 
-  /// Whether the cycle over loops k and l closes within the limit. Where the trajectory says
-  /// nothing about a relative pose, nothing contradicts.
-  bool agree(size_t k, size_t l) const {
-    const auto ends = trajectory_pose(loops_[k].to, loops_[l].to);
-    const auto starts = trajectory_pose(loops_[l].from, loops_[k].from);
-    if (!ends || !starts) return true;
-    const UncertainPose cycle = measured_[k] * *ends * inverse(measured_[l]) * *starts;
+  /// Those of the loops `others` whose cycle with loop k does not close within the limit. Where the
+  /// trajectory says nothing about a relative pose, nothing contradicts.
+  std::vector<size_t> conflicts(size_t k, std::span<const size_t> others) const {
+    // All from one pose, then all from the other: each is one column of the covariance.
+    std::vector<std::optional<UncertainPose>> ends, starts;
+    for (const size_t l : others) ends.push_back(trajectory_pose(loops_[k].to, loops_[l].to));
+    for (const size_t l : others) starts.push_back(trajectory_pose(loops_[k].from, loops_[l].from));
+    std::vector<size_t> found;
+    for (size_t i = 0; i < others.size(); ++i)
+      if (ends[i] && starts[i] && !agree(k, *ends[i], others[i], *starts[i]))
+        found.push_back(others[i]);
+    return found;
+  }
+
+ private:
+  bool agree(size_t k, const UncertainPose& ends, size_t l, const UncertainPose& starts) const {
+    const UncertainPose cycle = measured_[k] * ends * inverse(measured_[l]) * inverse(starts);
     const auto covariance = chart_block<Chart>(cycle.covariance);
     const Vector6d error = boxminus(cycle.T_a_b, Pose{});
     const auto e = chart_vector<Chart>(error);
     return e.dot(covariance.llt().solve(e)) <= limit_;
   }
 
- private:
   std::optional<UncertainPose> trajectory_pose(int a, int b) const {
-    const auto covariance = covariance_.relative(a, b);
+    const auto covariance = covariance_.relative_by_column(a, b);
     if (!covariance) return std::nullopt;
     const auto& poses = trajectory_.poses;
     return UncertainPose{
@@ -77,19 +93,65 @@ class ConsistencyTest {
   std::vector<UncertainPose> measured_;
 };
 
+/// The loops in the order of the poses that they lead to.
+std::vector<size_t> in_order(std::span<const PoseGraphEdge> loops) {
+  std::vector<size_t> order(loops.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t k, size_t l) { return loops[k].to < loops[l].to; });
+  return order;
+}
+
+/// For each loop those that it contradicts, in no order.
 template <class Chart>
-std::vector<bool> consistent_set(const PoseGraph& trajectory, std::span<const PoseGraphEdge> loops,
-                                 double confidence) {
+std::vector<std::vector<size_t>> all_conflicts(const PoseGraph& trajectory,
+                                               std::span<const PoseGraphEdge> loops,
+                                               double confidence) {
   const ConsistencyTest<Chart> test(trajectory, loops, confidence);
-  std::vector<std::vector<bool>> agrees(loops.size(), std::vector<bool>(loops.size(), false));
-  // Row k belongs to task k alone; the other half is copied afterwards.
-  tbb::parallel_for(size_t{0}, loops.size(), [&](size_t k) {
-    for (size_t l = k + 1; l < loops.size(); ++l) agrees[k][l] = test.agree(k, l);
+  const std::vector<size_t> order = in_order(loops);
+  std::vector<std::vector<size_t>> later(loops.size());
+  tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
+    const size_t count = std::min(kCompared, order.size() - i - 1);
+    later[order[i]] = test.conflicts(order[i], std::span(order).subspan(i + 1, count));
   });
-  for (size_t k = 0; k < loops.size(); ++k)
-    for (size_t l = 0; l < k; ++l) agrees[k][l] = agrees[l][k];
-  std::vector<bool> chosen(loops.size(), false);
-  for (const int k : maximum_clique(agrees)) chosen[static_cast<size_t>(k)] = true;
+  std::vector<std::vector<size_t>> conflicts = later;
+  for (size_t k = 0; k < later.size(); ++k)
+    for (const size_t l : later[k]) conflicts[l].push_back(k);
+  return conflicts;
+}
+
+/// The loops that are tied to loop k by conflicts, ascending; marks them as seen.
+std::vector<size_t> component_of(size_t k, const std::vector<std::vector<size_t>>& conflicts,
+                                 std::vector<bool>& seen) {
+  std::vector<size_t> component{k};
+  seen[k] = true;
+  for (size_t i = 0; i < component.size(); ++i)
+    for (const size_t l : conflicts[component[i]]) {
+      if (seen[l]) continue;
+      seen[l] = true;
+      component.push_back(l);
+    }
+  std::sort(component.begin(), component.end());
+  return component;
+}
+
+/// The largest sets of loops without conflicts, one for each component of the graph of conflicts:
+/// together they are the largest of all.
+std::vector<bool> without_conflicts(const std::vector<std::vector<size_t>>& conflicts) {
+  std::vector<bool> chosen(conflicts.size(), false);
+  std::vector<bool> seen(conflicts.size(), false);
+  for (size_t k = 0; k < conflicts.size(); ++k) {
+    if (seen[k]) continue;
+    const std::vector<size_t> component = component_of(k, conflicts, seen);
+    std::vector<std::vector<bool>> agrees(component.size(),
+                                          std::vector<bool>(component.size(), true));
+    for (size_t i = 0; i < component.size(); ++i)
+      for (const size_t l : conflicts[component[i]]) {
+        const auto at = std::lower_bound(component.begin(), component.end(), l);
+        agrees[i][static_cast<size_t>(at - component.begin())] = false;
+      }
+    for (const int i : maximum_clique(agrees)) chosen[component[static_cast<size_t>(i)]] = true;
+  }
   return chosen;
 }
 
@@ -105,7 +167,7 @@ std::vector<bool> pairwise_consistent_set(const PoseGraph& trajectory,
                          ": the information matrix is singular, so its cycles cannot be judged");
   });
   return with_chart(trajectory.space, [&](auto chart) {
-    return consistent_set<decltype(chart)>(trajectory, loops, confidence);
+    return without_conflicts(all_conflicts<decltype(chart)>(trajectory, loops, confidence));
   });
 }
 
