@@ -3,6 +3,7 @@
 #include "loop_confirm.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -39,10 +40,10 @@ Eigen::Matrix3d planar_covariance(const Matrix6d& information) {
   return (planar + Eigen::Matrix3d::Identity()).inverse();
 }
 
-Matrix6d in_space(const Eigen::Matrix3d& planar_information) {
-  Matrix6d information = Matrix6d::Zero();
-  information(kPlanar, kPlanar) = planar_information;
-  return information;
+Matrix6d in_space(const Eigen::Matrix3d& planar) {
+  Matrix6d matrix = Matrix6d::Zero();
+  matrix(kPlanar, kPlanar) = planar;
+  return matrix;
 }
 
 Eigen::Matrix3d patch_bend() {
@@ -63,6 +64,32 @@ size_t nearest_keyframe(const LoopPatch& map, const Pose& T_map_query) {
     }
   }
   return nearest;
+}
+
+/// What the registration of a stretch of keyframes does not know of the one that it is told for:
+/// how far they stand from it as a whole. The errors of the steps add up to both sides, and the
+/// mean of such a walk has a third of the mean variance of its places. In the plane, frame of the
+/// keyframe.
+Eigen::Matrix3d drift_around(const LoopProblem& problem, const LoopPatch& patch, int keyframe,
+                             const Pose& T_center_keyframe, double reach_m) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (size_t i = 0; i < patch.keyframes.size(); ++i) {
+    const Pose& T_center_other = patch.T_center_keyframe[i];
+    if ((T_center_other.translation - T_center_keyframe.translation).norm() > reach_m) continue;
+    ++count;
+    if (patch.keyframes[i] == keyframe) continue;
+    const auto covariance = problem.covariance(patch.keyframes[i], keyframe);
+    if (covariance) sum += (*covariance)(kPlanar, kPlanar);
+  }
+  return sum / std::max(1, 3 * count);
+}
+
+/// (I^-1 + B)^-1, also where I is singular.
+Eigen::Matrix3d widened(const Eigen::Matrix3d& information, const Eigen::Matrix3d& B) {
+  const Eigen::Matrix3d wide =
+      (Eigen::Matrix3d::Identity() + information * B).inverse() * information;
+  return (wide + wide.transpose()) / 2;
 }
 
 bool agree(const Registration& forward, const Registration& backward) {
@@ -112,6 +139,17 @@ void LoopConfirmer::load_map() {
   map_target_.emplace(make_target(map_surfaces_));
 }
 
+void LoopConfirmer::widen_by_drift(const LoopPatch& query, size_t index,
+                                   LoopConfirmation& confirmation) const {
+  const Matrix6d of_a = in_space(
+      drift_around(problem_, map_, confirmation.a, map_.T_center_keyframe[index], kTargetReachM));
+  const Matrix6d of_b =
+      in_space(drift_around(problem_, query, query.center, Pose{}, kSourceReachM));
+  const Matrix6d drift = graph::compose_covariance(confirmation.T_a_b, of_a, of_b);
+  confirmation.information =
+      in_space(widened(confirmation.information(kPlanar, kPlanar), drift(kPlanar, kPlanar)));
+}
+
 LoopConfirmation LoopConfirmer::confirm(const LoopPatch& query, const Pose& T_map_query) {
   load_map();
   const PatchSurfaces query_surfaces = load_surfaces(problem_, query);
@@ -138,6 +176,7 @@ LoopConfirmation LoopConfirmer::confirm(const LoopPatch& query, const Pose& T_ma
   const Eigen::Matrix3d covariance = planar_covariance(whole.information) + patch_bend();
   confirmation.information = in_space(covariance.inverse());
   refine(map_surfaces_, query_surfaces, T_map_a, options, confirmation);
+  widen_by_drift(query, index, confirmation);
   return confirmation;
 }
 

@@ -21,7 +21,9 @@ struct LoopConfirmation {
 
 /// Registers the whole query onto the whole map from the match, then what both saw close to b onto
 /// each other, both ways: the first shows whether the two patches agree, the second is free of the
-/// drift within them. The second's result counts where it exists, with the first as its prior.
+/// drift within them. The second's result counts where it exists, with the first as its prior. The
+/// covariance has the drift of the keyframes that were registered against the two that it is told
+/// for.
 class LoopConfirmer {
  public:
   LoopConfirmer(const LoopProblem& problem, const LoopPatch& map) : problem_(problem), map_(map) {}
@@ -31,6 +33,8 @@ class LoopConfirmer {
 
  private:
   void load_map();
+  /// Adds to the covariance what the drift within the patches leaves open.
+  void widen_by_drift(const LoopPatch& query, size_t index, LoopConfirmation& confirmation) const;
 
   const LoopProblem& problem_;
   const LoopPatch& map_;
