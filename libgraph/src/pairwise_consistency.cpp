@@ -135,6 +135,14 @@ std::vector<size_t> component_of(size_t k, const std::vector<std::vector<size_t>
   return component;
 }
 
+/// A branch of the search takes time with the square of the number of loops; two million of 64
+/// loops, and as few of more loops as take no longer: less than a second.
+long affordable_branches(size_t loops) {
+  constexpr double kMost = 2e6;
+  const double share = 64.0 / static_cast<double>(std::max<size_t>(64, loops));
+  return static_cast<long>(std::max(100.0, kMost * share * share));
+}
+
 /// The largest sets of loops without conflicts, one for each component of the graph of conflicts:
 /// together they are the largest of all.
 std::vector<bool> without_conflicts(const std::vector<std::vector<size_t>>& conflicts) {
@@ -150,7 +158,8 @@ std::vector<bool> without_conflicts(const std::vector<std::vector<size_t>>& conf
         const auto at = std::lower_bound(component.begin(), component.end(), l);
         agrees[i][static_cast<size_t>(at - component.begin())] = false;
       }
-    for (const int i : maximum_clique(agrees)) chosen[component[static_cast<size_t>(i)]] = true;
+    for (const int i : maximum_clique(agrees, affordable_branches(component.size())))
+      chosen[component[static_cast<size_t>(i)]] = true;
   }
   return chosen;
 }

@@ -18,9 +18,8 @@ namespace hmt::graph {
 /// judged. Returns one flag a loop. Each loop is compared with the 500 before and after it in the
 /// order of `to`, so that time grows with the number of loops. Loops that conflicts tie together,
 /// directly or through others, are judged on their own: exact maximum clique as long as the search
-/// needs no more than two million branches, the largest clique found so far beyond; ties by smaller
-/// index. Throws
-/// InputError where a loop is invalid or its information is singular.
+/// takes less than about a second, counted in branches, the largest clique found so far beyond;
+/// ties by smaller index. Throws InputError where a loop is invalid or its information is singular.
 std::vector<bool> pairwise_consistent_set(const PoseGraph& trajectory,
                                           std::span<const PoseGraphEdge> loops,
                                           double confidence = 0.99);
