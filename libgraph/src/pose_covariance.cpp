@@ -32,7 +32,9 @@ class InformationFactor {
   using Matrix = typename Chart::Matrix;
 
   explicit InformationFactor(const PoseGraph& graph)
-      : layout_(elimination_layout(graph, held_nodes(graph))) {
+      : layout_(elimination_layout(graph, held_nodes(graph))),
+        diagonal_once_(graph.poses.size()),
+        diagonal_(graph.poses.size()) {
     parameters_.resize(graph.poses.size() * Chart::kParameters);
     for (size_t node = 0; node < graph.poses.size(); ++node)
       Chart::store(graph.poses[node], parameters_.data() + node * Chart::kParameters);
@@ -80,19 +82,18 @@ class InformationFactor {
     return covariance;
   }
 
-  /// The same from whole columns of H^-1: slower for one pair, faster for many with the same `a`.
+  /// The same from blocks of a column of H^-1: slower for one pair, faster for many with the same
+  /// `a`.
   Matrix6d relative_by_column(int a, int b) const {
-    std::call_once(diagonal_once_, [this] { fill_diagonal(); });
     if (a == b) return Matrix6d::Zero();
     const Pose T_a_b = relative_pose(Chart::load(parameters(a)), Chart::load(parameters(b)));
     Matrix J_a, J_b;
     Chart::linearize(typename Chart::Measurement(T_a_b), parameters(a), parameters(b), J_a, J_b);
     Matrix S_ba = Matrix::Zero();
-    if (row(b) >= 0) S_ba = column(a).template middleRows<kSize>(row(b));
+    if (row(a) >= 0 && row(b) >= 0) S_ba = inverse_block(b, a);
     const Matrix cross = J_b * S_ba * J_a.transpose();
-    const Matrix sum = J_a * diagonal_[static_cast<size_t>(a)] * J_a.transpose() +
-                       J_b * diagonal_[static_cast<size_t>(b)] * J_b.transpose() + cross +
-                       cross.transpose();
+    const Matrix sum = J_a * diagonal(a) * J_a.transpose() + J_b * diagonal(b) * J_b.transpose() +
+                       cross + cross.transpose();
     return from_chart_block<Chart>((sum + sum.transpose()) / 2);
   }
 
@@ -166,48 +167,103 @@ class InformationFactor {
       if (term.row >= 0) y.middleRows(term.row, term.J.cols()) += term.J.transpose();
     Eigen::Matrix<double, kSize, kSize> sum = Eigen::Matrix<double, kSize, kSize>::Zero();
     for (const int j : path) {
-      int entry = L.outerIndexPtr()[j];
-      const Row y_j = y.row(j) / L.valuePtr()[entry];
-      for (++entry; entry < L.outerIndexPtr()[j + 1]; ++entry)
-        y.row(L.innerIndexPtr()[entry]) -= L.valuePtr()[entry] * y_j;
+      const Row y_j = eliminate(L, j, y);
       sum += y_j.transpose() * y_j;
       y.row(j).setZero();
     }
     return sum;
   }
 
-  /// Covariance of every pose alone, in its tangent.
-  void fill_diagonal() const {
-    diagonal_.resize(layout_.node.size());
-    for (size_t node = 0; node < diagonal_.size(); ++node)
-      diagonal_[node] =
-          covariance_block({{{layout_.node[node], Matrix::Identity()}, {-1, Matrix::Identity()}}});
+  /// Covariance of a pose alone, in its tangent; found once.
+  const Matrix& diagonal(int node) const {
+    const auto i = static_cast<size_t>(node);
+    std::call_once(diagonal_once_[i], [this, i] {
+      diagonal_[i] =
+          covariance_block({{{layout_.node[i], Matrix::Identity()}, {-1, Matrix::Identity()}}});
+    });
+    return diagonal_[i];
   }
 
-  /// H^-1 times the columns of one pose, kept until the thread asks for those of another pose.
-  const Columns& column(int node) const {
-    ColumnOfPose& kept = column_.local();
-    if (kept.node == node) return kept.values;
-    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(factor_->rows(), kSize);
-    if (row(node) >= 0) unit.template middleRows<kSize>(row(node)).setIdentity();
-    kept.values = solve_with_factor(*factor_, std::move(unit));
-    kept.node = node;
-    return kept.values;
+  /// Columns of H^-1 for one pose, as far as they were asked for.
+  struct ColumnOfPose {
+    int node = -1;
+    Columns values;             ///< on the way L^-1 E, in the end L^-T L^-1 E; zero elsewhere
+    std::vector<char> is_done;  ///< one a row
+    std::vector<int> touched;   ///< rows that are not zero or done
+  };
+
+  /// Block (b, a) of H^-1. The thread keeps the columns of `a` until it asks for those of another
+  /// pose: back substitution needs of the rows only those from b up to the root of the elimination
+  /// tree, most of which the last b has in common with this one.
+  Matrix inverse_block(int b, int a) const {
+    ColumnOfPose& column = column_.local();
+    if (column.node != a) start_column(a, column);
+    const SparseMatrix& L = *factor_;
+    const int first = row(b);
+    std::vector<int>& path = path_.local();
+    path.clear();
+    for (int k = first; k < first + kSize; ++k)
+      for (int j = k; j >= 0 && column.is_done[static_cast<size_t>(j)] == 0; j = parent(L, j)) {
+        column.is_done[static_cast<size_t>(j)] = 1;
+        path.push_back(j);
+      }
+    // Ascending within each stretch, and each stretch ends where one before it went on.
+    std::sort(path.begin(), path.end());
+    for (auto j = path.rbegin(); j != path.rend(); ++j) back_substitute(L, *j, column.values);
+    column.touched.insert(column.touched.end(), path.begin(), path.end());
+    return column.values.template middleRows<kSize>(first);
   }
 
-  /// Ascending union of the paths; the parent of a column is its first entry below the diagonal.
+  /// L^-1 times the unit columns of a pose.
+  void start_column(int a, ColumnOfPose& column) const {
+    const SparseMatrix& L = *factor_;
+    if (column.values.rows() != L.rows()) {
+      column.values.setZero(L.rows(), kSize);
+      column.is_done.assign(static_cast<size_t>(L.rows()), 0);
+    }
+    for (const int j : column.touched) {
+      column.values.row(j).setZero();
+      column.is_done[static_cast<size_t>(j)] = 0;
+    }
+    column.node = a;
+    const Term whole{row(a), Matrix::Identity()};
+    column.touched = union_of_paths({whole, {-1, Matrix::Identity()}}, L);
+    column.values.template middleRows<kSize>(row(a)).setIdentity();
+    for (const int j : column.touched) column.values.row(j) = eliminate(L, j, column.values);
+  }
+
+  /// x_j of L x = y, y in `values`, taken out of the rows below.
+  static Row eliminate(const SparseMatrix& L, int j, Columns& values) {
+    int entry = L.outerIndexPtr()[j];
+    const Row x_j = values.row(j) / L.valuePtr()[entry];
+    for (++entry; entry < L.outerIndexPtr()[j + 1]; ++entry)
+      values.row(L.innerIndexPtr()[entry]) -= L.valuePtr()[entry] * x_j;
+    return x_j;
+  }
+
+  /// x_j of L^T x = y in place, the rows below being solved.
+  static void back_substitute(const SparseMatrix& L, int j, Columns& values) {
+    const int diagonal = L.outerIndexPtr()[j];
+    Row x_j = values.row(j);
+    for (int entry = diagonal + 1; entry < L.outerIndexPtr()[j + 1]; ++entry)
+      x_j -= L.valuePtr()[entry] * values.row(L.innerIndexPtr()[entry]);
+    values.row(j) = x_j / L.valuePtr()[diagonal];
+  }
+
+  /// Of a column in the elimination tree: its first entry below the diagonal; -1 for a root.
+  static int parent(const SparseMatrix& L, int j) {
+    const int entry = L.outerIndexPtr()[j] + 1;
+    return entry < L.outerIndexPtr()[j + 1] ? L.innerIndexPtr()[entry] : -1;
+  }
+
+  /// Ascending union of the paths.
   static std::vector<int> union_of_paths(const std::array<Term, 2>& terms, const SparseMatrix& L) {
     std::vector<int> path;
     for (const Term& term : terms) {
       if (term.row < 0) continue;
       const auto middle = static_cast<std::ptrdiff_t>(path.size());
       for (int k = 0; k < term.J.cols(); ++k) path.push_back(term.row + k);
-      for (int j = path.back();;) {
-        const int parent_entry = L.outerIndexPtr()[j] + 1;
-        if (parent_entry >= L.outerIndexPtr()[j + 1]) break;
-        j = L.innerIndexPtr()[parent_entry];
-        path.push_back(j);
-      }
+      for (int j = parent(L, path.back()); j >= 0; j = parent(L, j)) path.push_back(j);
       std::inplace_merge(path.begin(), path.begin() + middle, path.end());
     }
     path.erase(std::unique(path.begin(), path.end()), path.end());
@@ -217,15 +273,12 @@ class InformationFactor {
   EliminationLayout layout_;
   std::vector<double> parameters_;
   std::vector<double> point_parameters_;
-  SparseMatrix information_;            ///< lower triangle
-  std::optional<SparseMatrix> factor_;  ///< nothing where singular
-  struct ColumnOfPose {
-    int node = -1;
-    Columns values;
-  };
-  mutable std::once_flag diagonal_once_;
+  SparseMatrix information_;                           ///< lower triangle
+  std::optional<SparseMatrix> factor_;                 ///< nothing where singular
+  mutable std::vector<std::once_flag> diagonal_once_;  ///< one a node, as diagonal_
   mutable std::vector<Matrix> diagonal_;
   mutable tbb::enumerable_thread_specific<ColumnOfPose> column_;
+  mutable tbb::enumerable_thread_specific<std::vector<int>> path_;
   /// All zero between calls.
   mutable tbb::enumerable_thread_specific<Columns> workspace_;
 };

@@ -12,8 +12,8 @@
 #include <set>
 #include <utility>
 
+#include "../registration/surface_store.hpp"
 #include "hmt/submap/registration/register_surface.hpp"
-#include "hmt/submap/registration/surface.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -153,8 +153,9 @@ std::vector<Constraint> register_overlapping(
     const LocalConstraintOptions& options, const Run& run) {
   const std::vector<std::pair<int, int>> pairs =
       pairs_to_register(overlap, options.min_overlap, known);
+  const SurfaceStore surfaces(observations);
   const auto surface_of = [&](int k) {
-    return make_surface(*observations.load(keyframes[static_cast<size_t>(k)].observation));
+    return surfaces.load(keyframes[static_cast<size_t>(k)].observation);
   };
   const PairRegistration register_pair(space, keyframes, T_world_keyframe, overlap, covariance);
   std::vector<std::optional<Constraint>> slots(pairs.size());
@@ -167,12 +168,12 @@ std::vector<Constraint> register_overlapping(
   tbb::task_arena arena(run.threads);
   arena.execute([&] {
     tbb::parallel_for(size_t{0}, starts.size() - 1, [&](size_t s) {
-      const Surface surface_a = surface_of(pairs[starts[s]].first);
-      const RegistrationTarget::Placed placed[] = {{Pose{}, &surface_a}};
+      const auto surface_a = surface_of(pairs[starts[s]].first);
+      const RegistrationTarget::Placed placed[] = {{Pose{}, surface_a.get()}};
       const RegistrationTarget target(placed);
       for (size_t k = starts[s]; k < starts[s + 1]; ++k)
         slots[k] =
-            register_pair(pairs[k].first, pairs[k].second, target, surface_of(pairs[k].second));
+            register_pair(pairs[k].first, pairs[k].second, target, *surface_of(pairs[k].second));
       done += starts[s + 1] - starts[s];
     });
   });

@@ -191,7 +191,7 @@ std::shared_ptr<const Observation> MapFile::load(int64_t index) const {
   }
   if (!decode_sensed(frame, *observation))
     impl_->database.fail_damaged("observation " + std::to_string(index) + " cannot be decoded");
-  impl_->cache.insert(observation);
+  impl_->cache.insert(index, observation, size_in_memory(*observation));
   return observation;
 }
 

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <list>
 #include <mutex>
-#include <unordered_map>
 
+#include "../observation/recently_used.hpp"
 #include "database.hpp"
 #include "hmt/submap/map/map_file.hpp"
 
@@ -17,22 +16,12 @@ constexpr int kObservationDigestColumn = 9;
 /// Table submaps: id, chi2, degrees of freedom, counts of keyframes and constraints, digest.
 constexpr int kSubmapDigestColumn = 5;
 
-/// Recently used observations, up to a number of bytes. Safe for many threads.
-class ObservationCache {
- public:
-  std::shared_ptr<const Observation> find(int64_t index);
-  void insert(std::shared_ptr<const Observation> observation);
+/// What the recently used observations may hold: a whole log of a few thousand planar scans, or
+/// some dozen large clouds.
+constexpr size_t kCacheBytes = size_t{64} << 20;
 
- private:
-  struct Entry {
-    std::shared_ptr<const Observation> observation;
-    size_t bytes = 0;
-  };
-  std::mutex mutex_;
-  std::list<Entry> entries_;  // the most recently used first
-  std::unordered_map<int64_t, std::list<Entry>::iterator> by_index_;
-  size_t bytes_ = 0;
-};
+/// Bytes that an observation takes.
+size_t size_in_memory(const Observation& observation);
 
 struct MapFile::Impl {
   Impl(const std::filesystem::path& path, Database::Access access) : database(path, access) {}
@@ -44,7 +33,7 @@ struct MapFile::Impl {
   // Held during every use of the database: one connection serves all threads.
   std::mutex mutex;
   std::optional<Statement> select_observation;
-  ObservationCache cache;
+  RecentlyUsed<Observation> cache{kCacheBytes};
 };
 
 }  // namespace hmt::submap

@@ -21,21 +21,21 @@ constexpr double kDistinct_rad = 0.1;
 // Poses within this share of the best score are kept as rivals.
 constexpr double kRivalShare = 0.7;
 
-// A block of kPool x kPool offsets at one heading, with the upper bound of their scores.
+// A square of offsets at one heading, with an upper bound of their scores; at level 0 a single
+// offset and its score.
 struct Block {
   int bound = 0;
+  int level = 0;
   int heading = 0;
   Eigen::Array2i offset{0, 0};
 };
 
-struct Candidate {
-  int score = 0;
-  int heading = 0;
-  Eigen::Array2i offset{0, 0};
-};
-
-auto order_of(const Block& b) {
-  return std::tuple(-b.bound, b.heading, b.offset.y(), b.offset.x());
+// Best first, ties by place.
+bool before(const Block& a, const Block& b) {
+  const auto order = [](const Block& c) {
+    return std::tuple(-c.bound, c.heading, c.offset.y(), c.offset.x());
+  };
+  return order(a) < order(b);
 }
 
 std::vector<Eigen::Vector3d> sample_points(const Surface& source) {
@@ -63,29 +63,29 @@ class Search {
     for (int h = -headings_; h <= headings_; ++h) cells_.push_back(cells_at(h));
   }
 
-  std::vector<Candidate> run() const {
-    std::vector<Candidate> found;
-    int best = 0;
-    for (const Block& block : blocks()) {
-      if (block.bound < kRivalShare * best || block.bound == 0) break;
-      const Candidate candidate = best_in(block);
-      best = std::max(best, candidate.score);
-      found.push_back(candidate);
-    }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-    return found;
+  // The best offset of every block of level 1 that may hold a rival of the best one, best first.
+  std::vector<Block> run() {
+    best_ = 0;
+    found_.clear();
+    std::vector<Block> roots;
+    const int side = LikelihoodGrid::side(kTop);
+    for (int h = -headings_; h <= headings_; ++h)
+      for (int y = -steps_; y <= steps_; y += side)
+        for (int x = -steps_; x <= steps_; x += side) roots.push_back(block_at(kTop, h, {x, y}));
+    descend(roots);
+    std::sort(found_.begin(), found_.end(), before);
+    return std::move(found_);
   }
 
-  Pose pose_of(const Candidate& candidate) const {
+  Pose pose_of(const Block& candidate) const {
     Pose pose = turned(candidate.heading);
     pose.translation.head<2>() +=
         LikelihoodGrid::kCell_m * candidate.offset.cast<double>().matrix();
     return pose;
   }
 
-  double score_of(const Candidate& candidate) const {
-    return candidate.score / (255.0 * static_cast<double>(points_.size()));
+  double score_of(const Block& candidate) const {
+    return candidate.bound / (255.0 * static_cast<double>(points_.size()));
   }
 
  private:
@@ -108,42 +108,50 @@ class Search {
 
   std::vector<Eigen::Array2i> cells_at(int heading) const {
     const Pose pose = turned(heading);
+    const Eigen::Matrix<double, 2, 3> R = pose.rotation_matrix().topRows<2>();
     std::vector<Eigen::Array2i> cells;
-    for (const Eigen::Vector3d& p : points_) {
-      const Eigen::Vector3d placed = pose * p;
-      cells.push_back(grid_.cell_of(placed.head<2>()));
-    }
+    cells.reserve(points_.size());
+    for (const Eigen::Vector3d& p : points_)
+      cells.push_back(grid_.cell_of(R * p + pose.translation.head<2>()));
     return cells;
   }
 
-  std::vector<Block> blocks() const {
-    std::vector<Block> all;
-    for (int h = -headings_; h <= headings_; ++h)
-      for (int y = -steps_; y <= steps_; y += LikelihoodGrid::kPool)
-        for (int x = -steps_; x <= steps_; x += LikelihoodGrid::kPool) {
-          Block block{0, h, {x, y}};
-          for (const Eigen::Array2i& cell : cells_[static_cast<size_t>(h + headings_)])
-            block.bound += grid_.pooled(cell + block.offset);
-          all.push_back(block);
-        }
-    std::sort(all.begin(), all.end(),
-              [](const Block& a, const Block& b) { return order_of(a) < order_of(b); });
-    return all;
+  Block block_at(int level, int heading, const Eigen::Array2i& offset) const {
+    Block block{0, level, heading, offset};
+    for (const Eigen::Array2i& cell : cells_[static_cast<size_t>(heading + headings_)])
+      block.bound += grid_.bound(level, cell + offset);
+    return block;
   }
 
-  Candidate best_in(const Block& block) const {
-    Candidate best{-1, block.heading, block.offset};
+  void descend(std::vector<Block>& blocks) {
+    std::sort(blocks.begin(), blocks.end(), before);
+    for (const Block& block : blocks) {
+      if (block.bound < kRivalShare * best_ || block.bound == 0) break;
+      if (block.level == 0) {
+        // The others of its block are the same match.
+        best_ = std::max(best_, block.bound);
+        found_.push_back(block);
+        break;
+      }
+      std::vector<Block> children = children_of(block);
+      descend(children);
+    }
+  }
+
+  std::vector<Block> children_of(const Block& block) const {
+    std::vector<Block> children;
+    const int level = block.level - 1;
+    const int side = LikelihoodGrid::side(level);
     for (int y = 0; y < LikelihoodGrid::kPool; ++y)
       for (int x = 0; x < LikelihoodGrid::kPool; ++x) {
-        const Eigen::Array2i offset = block.offset + Eigen::Array2i(x, y);
-        int score = 0;
-        for (const Eigen::Array2i& cell : cells_[static_cast<size_t>(block.heading + headings_)])
-          score += grid_.fine(cell + offset);
-        if (score > best.score) best = {score, block.heading, offset};
+        const Eigen::Array2i offset = block.offset + side * Eigen::Array2i(x, y);
+        if (level > 0 && (offset > steps_).any()) continue;
+        children.push_back(block_at(level, block.heading, offset));
       }
-    return best;
+    return children;
   }
 
+  static constexpr int kTop = LikelihoodGrid::kLevels - 1;
   std::vector<Eigen::Vector3d> points_;
   Pose guess_;
   double reach_m_;
@@ -152,6 +160,8 @@ class Search {
   double heading_step_rad_;
   int headings_;
   std::vector<std::vector<Eigen::Array2i>> cells_;  // one entry a heading
+  int best_ = 0;                                    // score so far
+  std::vector<Block> found_;
 };
 
 bool is_distinct(const Pose& a, const Pose& b) {
@@ -167,9 +177,9 @@ std::vector<CorrelativeMatch> correlative_search(const Surface& source,
                                                  const CorrelativeWindow& window, int max_matches) {
   std::vector<Eigen::Vector3d> points = sample_points(source);
   if (points.empty() || target.size() == 0) return {};
-  const Search search(std::move(points), target.impl(), T_target_source_guess, window);
+  Search search(std::move(points), target.impl(), T_target_source_guess, window);
   std::vector<CorrelativeMatch> matches;
-  for (const Candidate& candidate : search.run()) {
+  for (const Block& candidate : search.run()) {
     if (static_cast<int>(matches.size()) >= max_matches) break;
     const Pose pose = search.pose_of(candidate);
     const bool distinct = std::all_of(

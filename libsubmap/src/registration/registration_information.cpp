@@ -18,6 +18,7 @@ constexpr double kInlierDistance_m = 0.05;
 // deviations: errors that two scans share from the same laser (steps of range, beams at the same
 // bearings) look like structure that moves along with the robot.
 constexpr double kChanceDeviations = 2;
+constexpr double kLargestVariance = 0.2;
 // Lasers err systematically by some millimetres (steps of range, reflectance, angle of incidence),
 // by the same amount on all beams that meet a wall, so no number of beams takes it away. A step of
 // a centimetre alone leaves 2.9 mm.
@@ -31,23 +32,35 @@ struct InlierSums {
   int count = 0;
 };
 
-// J J^T of a match without the share that the chance error of the normal's direction adds: a
-// measured normal cos(e) n + sin(e) t has E[n n^T] = (1 - v) n n^T + v t t^T, v = E[e^2].
-Matrix6d unbiased_outer(const Match& match, const Eigen::Vector3d& p_source, Space space) {
-  const Eigen::Vector3d n = match.jacobian.head<3>();
-  Eigen::Matrix3d along = -n * n.transpose();
-  if (space == Space::se2)
-    along.topLeftCorner<2, 2>() += Eigen::Matrix2d::Identity();
-  else
-    along += Eigen::Matrix3d::Identity();
-  // Residual n . (p + w x p + d): the rows of the map from the tangent to the motion of p.
-  Eigen::Matrix<double, 3, 6> motion = Eigen::Matrix<double, 3, 6>::Zero();
-  motion.leftCols<3>().setIdentity();
-  const Eigen::Vector3d& p = p_source;
-  motion.rightCols<3>() << 0, p.z(), -p.y(), -p.z(), 0, p.x(), p.y(), -p.x(), 0;
-  const double v = std::min(kChanceDeviations * kChanceDeviations * match.normal_variance, 0.2);
-  return match.jacobian * match.jacobian.transpose() - v * motion.transpose() * along * motion;
-}
+// Sum of J J^T of the matches without the share that the chance errors of the normals' directions
+// add: a measured normal cos(e) n + sin(e) t has E[n n^T] = (1 - v) n n^T + v t t^T, v = E[e^2].
+// With M the map from the tangent to the motion of the point, J = M^T n, and I - n n^T for t t^T
+// (over both tangents in space), a match is worth (1 + v) J J^T - v M^T M; the second terms add up
+// in the moments of the points.
+class UnbiasedSum {
+ public:
+  void add(double weight, const Vector6d& J, const Eigen::Vector3d& p, double direction_variance) {
+    const double v =
+        std::min(kChanceDeviations * kChanceDeviations * direction_variance, kLargestVariance);
+    outer_.noalias() += (weight * (1 + v)) * J * J.transpose();
+    weight_ += weight * v;
+    first_ += weight * v * p;
+    second_ += weight * v * p * p.transpose();
+  }
+  Matrix6d sum() const {
+    Matrix6d moments;
+    const Eigen::Matrix3d cross = graph::skew(first_);
+    moments << weight_ * Eigen::Matrix3d::Identity(), -cross, cross,
+        second_.trace() * Eigen::Matrix3d::Identity() - second_;
+    return outer_ - moments;
+  }
+
+ private:
+  Matrix6d outer_ = Matrix6d::Zero();
+  double weight_ = 0;
+  Eigen::Vector3d first_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second_ = Eigen::Matrix3d::Zero();
+};
 
 std::vector<int> shared_elements(const std::vector<Match>& matches) {
   uint32_t largest = 0;
@@ -57,20 +70,22 @@ std::vector<int> shared_elements(const std::vector<Match>& matches) {
   return count;
 }
 
-InlierSums sum_inliers(const SurfaceMatcher& matcher, Space space) {
+InlierSums sum_inliers(const SurfaceMatcher& matcher) {
   InlierSums sums;
+  UnbiasedSum information;
   const std::vector<int> sharing = shared_elements(matcher.matches());
   for (const Match& match : matcher.matches()) {
     if (std::abs(match.residual_m) > matcher.scale_m()) continue;
     const Eigen::Vector3d& p = matcher.source().points_robot[match.source];
     const double independent =
         match.source_variance + sharing[match.element] * match.target_variance;
-    sums.information += unbiased_outer(match, p, space) / independent;
+    information.add(1 / independent, match.jacobian, p, match.normal_variance);
     sums.chi2 += match.residual_m * match.residual_m / match.variance();
     sums.inflation += independent / match.variance();
     sums.range2 += p.squaredNorm();
     ++sums.count;
   }
+  sums.information = information.sum();
   return sums;
 }
 
@@ -124,13 +139,13 @@ Matrix6d in_space(Space space, Matrix6d information) {
 }  // namespace
 
 Matrix6d geometric_information(const SurfaceMatcher& matcher, Space space) {
-  const InlierSums sums = sum_inliers(matcher, space);
+  const InlierSums sums = sum_inliers(matcher);
   if (sums.count == 0) return Matrix6d::Zero();
   return with_shared_error(in_space(space, sums.information), std::sqrt(sums.range2 / sums.count));
 }
 
 Matrix6d honest_information(const SurfaceMatcher& matcher, Space space) {
-  const InlierSums sums = sum_inliers(matcher, space);
+  const InlierSums sums = sum_inliers(matcher);
   const int unknowns = space == Space::se2 ? 3 : 6;
   if (sums.count <= unknowns) return Matrix6d::Zero();
   const double variance_factor =

@@ -17,6 +17,7 @@ constexpr double kScaleDeviations = 3;
 constexpr double kDeviationOverMedian = 1.4826;
 // Neighbors on one surface are looked for at least this far.
 constexpr double kLeastRadius_m = 0.15;
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
 }  // namespace
 
@@ -28,7 +29,11 @@ double robust_weight(double residual_m, double scale_m) {
 
 SurfaceMatcher::SurfaceMatcher(const Surface& source, const RegistrationTarget::Impl& target,
                                double radius_m)
-    : source_(&source), target_(&target), radius_m_(radius_m), scale_m_(radius_m) {
+    : source_(&source),
+      target_(&target),
+      last_(source.size(), kNone),
+      radius_m_(radius_m),
+      scale_m_(radius_m) {
   for (uint32_t i = 0; i < source.size(); ++i)
     if (!source.normals_robot[i].isZero(0)) usable_.push_back(i);
   matches_.reserve(usable_.size());
@@ -46,16 +51,20 @@ void SurfaceMatcher::find_match(uint32_t i, const Pose& T_target_source, const E
   const Eigen::Vector3d p = R * p_source + T_target_source.translation;
   const Eigen::Vector3d n = R * source_->normals_robot[i];
   double best2 = radius_m_ * radius_m_;
-  uint32_t best = std::numeric_limits<uint32_t>::max();
-  target_->grid.visit_near(p, radius_m_, [&](size_t k) {
+  uint32_t best = kNone;
+  const auto visit = [&](size_t k) {
     const SurfaceElement& element = target_->elements[k];
     const double distance2 = (p - element.point).squaredNorm();
     if (distance2 < best2 && n.dot(element.normal) > kLeastNormalAgreement) {
       best2 = distance2;
       best = static_cast<uint32_t>(k);
     }
-  });
-  if (best == std::numeric_limits<uint32_t>::max()) return;
+  };
+  // The element of the last pose is mostly the nearest one still, and bounds the search.
+  if (last_[i] != kNone) visit(last_[i]);
+  target_->grid.visit_near(p, best == kNone ? radius_m_ : std::sqrt(best2), visit);
+  last_[i] = best;
+  if (best == kNone) return;
   const SurfaceElement& element = target_->elements[best];
   const Eigen::Vector3d normal_source = R.transpose() * element.normal;
   Match match{.source = i, .element = best};

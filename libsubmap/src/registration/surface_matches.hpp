@@ -48,6 +48,7 @@ class SurfaceMatcher {
   const Surface* source_;
   const RegistrationTarget::Impl* target_;
   std::vector<uint32_t> usable_;
+  std::vector<uint32_t> last_;  // element that each source point met last
   std::vector<Match> matches_;
   std::vector<double> sorted_;
   double radius_m_;

@@ -2,8 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hmt/submap/registration/track.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tracker.hpp"
 #include "validate_track_options.hpp"
@@ -20,18 +26,69 @@ void validate(const TrackOptions& options) {
   check("keyframe_angle_rad", options.keyframe_angle_rad, 0.02, std::numbers::pi);
 }
 
+namespace {
+
+// Observations that are read at once, so that their surfaces can be made while those before them
+// are tracked: few enough of them and of their points that they take some megabytes.
+constexpr size_t kBatch = 32;
+constexpr size_t kBatchPoints = 30000;
+
+struct Batch {
+  struct Entry {
+    Observation observation;
+    Surface surface;
+  };
+  std::vector<Entry> entries;
+  int64_t bytes_read = 0;  ///< of the log, up to the last entry
+};
+
+/// Empty at the end of the log.
+Batch read_batch(LogReader& log) {
+  Batch batch;
+  size_t points = 0;
+  while (batch.entries.size() < kBatch && points < kBatchPoints) {
+    std::optional<Observation> observation = log.next();
+    if (!observation) break;
+    Surface surface = make_surface(*observation);
+    points += surface.size();
+    batch.entries.push_back({std::move(*observation), std::move(surface)});
+  }
+  batch.bytes_read = static_cast<int64_t>(log.bytes_read());
+  return batch;
+}
+
+void track_batch(Tracker& tracker, Batch& batch,
+                 const std::function<void(const Observation&)>& keep, const Run& run) {
+  for (Batch::Entry& entry : batch.entries) {
+    if (run.stop_requested()) throw Interrupted{};
+    tracker.add(entry.observation, std::move(entry.surface));
+    if (keep) keep(entry.observation);
+  }
+}
+
+}  // namespace
+
 Track track_log(LogReader& log, const TrackOptions& options,
                 const std::function<void(const Observation&)>& keep, const Run& run) {
   validate(options);
   Tracker tracker(log.space(), options);
   int64_t count = 0;
-  while (const std::optional<Observation> observation = log.next()) {
-    if (run.stop_requested()) throw Interrupted{};
-    tracker.add(*observation);
-    if (keep) keep(*observation);
-    if (++count % 100 == 0)
-      run.report(
-          {"track", static_cast<double>(log.bytes_read()), static_cast<double>(log.bytes_total())});
+  tbb::task_arena arena(run.threads);
+  Batch next = read_batch(log);
+  while (!next.entries.empty()) {
+    Batch batch = std::move(next);
+    next = {};
+    // What is tracked and what is read and prepared meanwhile have nothing in common.
+    const auto task = [&](int k) {
+      if (k == 0)
+        track_batch(tracker, batch, keep, run);
+      else
+        next = read_batch(log);
+    };
+    arena.execute([&] { tbb::parallel_for(0, 2, task); });
+    count += static_cast<int64_t>(batch.entries.size());
+    run.report(
+        {"track", static_cast<double>(batch.bytes_read), static_cast<double>(log.bytes_total())});
   }
   if (count == 0) throw InputError("the log holds no observation");
   const TrackCounts& counts = tracker.counts();

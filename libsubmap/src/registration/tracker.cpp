@@ -77,15 +77,15 @@ Tracker::Tracker(Space space, const TrackOptions& options)
   track_.space = space;
 }
 
-void Tracker::start(const Observation& observation) {
+void Tracker::start(const Observation& observation, Surface surface) {
   T_track_latest_ = observation.T_odom_robot;
   add_keyframe(observation, {T_track_latest_, diagonal_in(space_, kDefining, kDefining), true},
-               make_surface(observation));
+               std::move(surface));
 }
 
-void Tracker::add(const Observation& observation) {
+void Tracker::add(const Observation& observation, Surface surface) {
   if (track_.keyframes.empty()) {
-    start(observation);
+    start(observation, std::move(surface));
   } else {
     const Motion motion = predict_step(observation);
     const Pose& step = motion.step;
@@ -95,7 +95,6 @@ void Tracker::add(const Observation& observation) {
     T_keyframe_odometry_ = T_keyframe_odometry_ * step;
     const Matrix6d covariance = compose_covariance(step, covariance_latest_, step_covariance);
     const Prediction prediction{T_track_latest_ * step, covariance, inverse_in(space_, covariance)};
-    Surface surface = make_surface(observation);
     const Estimate found = estimate(surface, prediction);
     learn_odometry(motion, prediction, found);
     latest_step_ = relative_pose(T_track_latest_, found.T_track_robot);

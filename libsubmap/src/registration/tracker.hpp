@@ -23,7 +23,8 @@ class Tracker {
  public:
   Tracker(Space space, const TrackOptions& options);
 
-  void add(const Observation& observation);
+  /// `surface`: what the observation saw.
+  void add(const Observation& observation, Surface surface);
   const TrackCounts& counts() const { return counts_; }
   /// Everything but the log report.
   Track take() { return std::move(track_); }
@@ -58,7 +59,7 @@ class Tracker {
   /// Inlier fraction less what the contradiction to the odometry costs.
   double credit(const Registration& registration, const Prediction& prediction) const;
   double mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const;
-  void start(const Observation& observation);
+  void start(const Observation& observation, Surface surface);
   /// The robot's motion since the latest observation, before its surfaces are looked at.
   Motion predict_step(const Observation& observation);
   /// What a registration tells of the odometry.

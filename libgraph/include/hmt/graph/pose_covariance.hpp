@@ -34,8 +34,9 @@ class PoseCovariance {
   std::optional<Matrix6d> marginal(int node) const;
   /// Covariance of T_a_b in the tangent of Pose (frame b).
   std::optional<Matrix6d> relative(int a, int b) const;
-  /// The same, equal up to rounding, from a whole column of the inverse that each thread keeps for
-  /// the last `a`: the faster way to many pairs when those of one `a` are asked for in a row.
+  /// The same, equal up to rounding, from a column of the inverse that each thread keeps for the
+  /// last `a`, as far as it was needed: the faster way to many pairs when those of one `a` are
+  /// asked for in a row.
   std::optional<Matrix6d> relative_by_column(int a, int b) const;
   /// Covariance of a point in the world; its row of z is zero in Space::se2. Nothing for a point
   /// that no edge measures.
