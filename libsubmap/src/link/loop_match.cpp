@@ -34,23 +34,27 @@ constexpr double kMostSecondShare = 0.85;
 /// Lower second scores are not told apart: they do not matter and would cost time.
 constexpr double kSecondFloor = 0.7;
 constexpr double kMostConflict = 0.10;
-std::vector<Eigen::Vector2f> query_points(const LoopPatch& query) {
+
+std::vector<Eigen::Vector2f> query_points(const LoopPatch& query, Space space) {
   std::vector<Eigen::Vector2f> near;
   for (const Eigen::Vector2f& p : query.points_center)
-    if (p.norm() < kQueryRangeM) near.push_back(p);
+    if (p.norm() < query_range_m(space)) near.push_back(p);
   const size_t stride = (near.size() + kMostQueryPoints - 1) / kMostQueryPoints;
   std::vector<Eigen::Vector2f> chosen;
   for (size_t i = 0; i < near.size(); i += stride) chosen.push_back(near[i]);
   return chosen;
 }
 
-CorrelativeWindow window_of(const LoopProposal& proposal) {
+/// Around the places of the two centers, seen from above.
+CorrelativeWindow window_of(const LoopProposal& proposal, const LoopPatch& map,
+                            const LoopPatch& query, Space space) {
+  const Pose T_level = map.T_level_center * proposal.T_a_b * query.T_level_center.inverse();
   const Eigen::Matrix3d R = proposal.T_a_b.rotation_matrix();
   const Eigen::Matrix3d in_a = R * proposal.covariance.topLeftCorner<3, 3>() * R.transpose();
   const auto half = [](double variance, double margin, double widest) {
     return std::min(widest, kWindowGate * std::sqrt(std::max(0.0, variance)) + margin);
   };
-  return {proposal.T_a_b, half(in_a(0, 0), kWindowMarginM, kWidestM),
+  return {level_pose(space, T_level).T_world_level, half(in_a(0, 0), kWindowMarginM, kWidestM),
           half(in_a(1, 1), kWindowMarginM, kWidestM),
           half(proposal.covariance(5, 5), kWindowMarginRad, std::numbers::pi)};
 }
@@ -127,13 +131,15 @@ LoopMap::LoopMap(const LoopProblem& problem, LoopPatch patch)
 LoopCandidate examine_loop(const LoopProblem& problem, std::span<const PlanarScan> scans,
                            LoopMap& map, const LoopPatch& query, const LoopProposal& proposal) {
   LoopCandidate candidate = start(problem, proposal);
-  const std::vector<Eigen::Vector2f> points = query_points(query);
-  const CorrelativeWindow window = window_of(proposal);
+  const std::vector<Eigen::Vector2f> points = query_points(query, problem.space);
+  const CorrelativeWindow window = window_of(proposal, map.patch(), query, problem.space);
   const auto best = correlative_search(map.grid(), points, window, kLeastScore);
   if (!best)
     return refuse(candidate, LoopVerdict::low_score,
                   text("nowhere do %.0f %% of the points meet the map", 100 * kLeastScore));
-  candidate.T_a_b = best->T_map_query;
+  // Height and tilt are those of the prediction.
+  candidate.T_a_b =
+      map.patch().T_level_center.inverse() * best->T_map_query * query.T_level_center;
   candidate.information = match_information();
   candidate.score = best->score;
   candidate.mahalanobis = mahalanobis(proposal, candidate.T_a_b);

@@ -23,6 +23,13 @@ Eigen::Vector2d planar(const Pose& T, const Eigen::Vector2d& p) {
 
 }  // namespace
 
+LevelPose level_pose(Space space, const Pose& T_world_robot) {
+  if (space == Space::se2) return {T_world_robot, Pose{}};
+  const Eigen::Vector3d& t = T_world_robot.translation;
+  const Pose T_world_level = Pose::planar(t.x(), t.y(), T_world_robot.yaw_rad());
+  return {T_world_level, graph::relative_pose(T_world_level, T_world_robot)};
+}
+
 std::vector<double> path_lengths(std::span<const Pose> T_world_keyframe) {
   std::vector<double> path_m(T_world_keyframe.size(), 0.0);
   for (size_t k = 1; k < path_m.size(); ++k)
@@ -49,14 +56,20 @@ LoopPatch make_patch(const LoopProblem& problem, std::span<const double> path_m,
   LoopPatch patch;
   patch.center = center;
   const auto [first, last] = patch_range(path_m, center, reach_m);
+  const auto level = [&](int k) {
+    return level_pose(problem.space, problem.T_world_keyframe[static_cast<size_t>(k)]);
+  };
+  const LevelPose center_level = level(center);
+  patch.T_level_center = center_level.T_level_robot;
   std::vector<Eigen::Vector2f> points;
   for (int k = first; k <= last; ++k) {
     patch.keyframes.push_back(k);
     const Pose T = graph::relative_pose(problem.T_world_keyframe[static_cast<size_t>(center)],
                                         problem.T_world_keyframe[static_cast<size_t>(k)]);
     patch.T_center_keyframe.push_back(T);
+    const Pose T_level = graph::relative_pose(center_level.T_world_level, level(k).T_world_level);
     for (const Eigen::Vector2f& p : scans[static_cast<size_t>(k)].points_robot)
-      points.push_back(planar(T, p.cast<double>()).cast<float>());
+      points.push_back(planar(T_level, p.cast<double>()).cast<float>());
   }
   patch.points_center = thin_points(points, kPatchCellM);
   return patch;

@@ -15,6 +15,10 @@ namespace {
 constexpr double kLeastStepRad = 0.0087;
 /// Far points of a scan lie apart by decimetres and turn with every error of the heading.
 constexpr float kMaxRangeM = 20.0F;
+/// Surfaces around a lidar outdoors stand farther off than the walls of rooms.
+constexpr double kMaxCloudRangeM = 40.0;
+/// Vertical part of the normal of what stands upright, to 30 degrees.
+constexpr double kMostSlope = 0.5;
 constexpr double kScanCellM = 0.05;
 
 int bin_of(const SightFan& fan, double angle_rad) {
@@ -60,6 +64,20 @@ PlanarScan make_planar_scan(const Observation& observation) {
         points.push_back(
             (reading.T_robot_sensor * p_sensor.cast<double>()).head<2>().cast<float>());
   }
+  scan.points_robot = thin_points(points, kScanCellM);
+  return scan;
+}
+
+PlanarScan make_upright_scan(const Surface& surface, const Pose& T_level_robot) {
+  std::vector<Eigen::Vector2f> points;
+  for (size_t i = 0; i < surface.size(); ++i) {
+    const Eigen::Vector3d& normal = surface.normals_robot[i];
+    if (normal.isZero(0)) continue;
+    if (std::abs((T_level_robot.rotation * normal).z()) > kMostSlope) continue;
+    const Eigen::Vector2d p = (T_level_robot * surface.points_robot[i]).head<2>();
+    if (p.norm() < kMaxCloudRangeM) points.emplace_back(p.cast<float>());
+  }
+  PlanarScan scan;
   scan.points_robot = thin_points(points, kScanCellM);
   return scan;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hmt/submap/link/loop_search.hpp"
+#include "hmt/submap/registration/surface.hpp"
 
 namespace hmt::submap {
 
@@ -27,6 +28,11 @@ struct PlanarScan {
 
 /// Beams that returned nothing are left out: glass and dark surfaces return nothing as well.
 PlanarScan make_planar_scan(const Observation& observation);
+
+/// Of clouds: the points on upright surfaces, seen from above. What stands upright looks the same
+/// from any height, and ground and ceiling say nothing about the place. A cloud looks over and under
+/// what is in its way, so it tells of no free space in the plane. `T_level_robot`: tilt and height.
+PlanarScan make_upright_scan(const Surface& surface, const Pose& T_level_robot);
 
 /// True where the observation looked through the place of a point: a surface was seen at least
 /// `margin_m` behind it in its direction and in both neighboring ones.

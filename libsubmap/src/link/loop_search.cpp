@@ -46,7 +46,12 @@ std::vector<PlanarScan> load_scans(const LoopProblem& problem, std::span<const d
   std::vector<PlanarScan> scans(problem.keyframes.size());
   for_each_index(0, scans.size(), run.threads, [&](size_t k) {
     if (needed[k] == 0) return;
-    scans[k] = make_planar_scan(*problem.observations->load(problem.keyframes[k].observation));
+    const auto observation = problem.observations->load(problem.keyframes[k].observation);
+    scans[k] = problem.space == Space::se2
+                   ? make_planar_scan(*observation)
+                   : make_upright_scan(make_surface(*observation),
+                                       level_pose(problem.space, problem.T_world_keyframe[k])
+                                           .T_level_robot);
   });
   return scans;
 }
@@ -68,10 +73,6 @@ std::vector<LoopCandidate> in_order(std::vector<LoopCandidate> candidates) {
 }  // namespace
 
 std::vector<LoopCandidate> search_loops(const LoopProblem& problem, const Run& run) {
-  if (problem.space != Space::se2) {
-    run.log_warning("loop closures are searched in planar logs only: none were looked for");
-    return {};
-  }
   const std::vector<double> path_m = path_lengths(problem.T_world_keyframe);
   const std::vector<LoopProposal> proposals = propose_loops(problem, path_m, run.threads);
   if (proposals.empty()) return {};

@@ -2,7 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hmt/submap/observation/observation.hpp"
 
+#include <algorithm>
+
 namespace hmt::submap {
+
+bool is_cloud(const Reading& reading) {
+  return std::any_of(reading.points_sensor.begin(), reading.points_sensor.end(),
+                     [](const Eigen::Vector3f& p) { return p.z() != 0.0F; });
+}
 
 std::vector<Eigen::Vector3d> points_in_robot(const Observation& observation) {
   std::vector<Eigen::Vector3d> points_robot;

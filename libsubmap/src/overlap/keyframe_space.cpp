@@ -11,17 +11,20 @@ std::vector<SensorUse> sensors_of(std::span<const std::vector<Sight>> keyframes)
   struct Total {
     double points = 0;
     double readings = 0;
+    bool cloud = false;
   };
   std::map<Sensor, Total> totals;
   for (const auto& sights : keyframes) {
-    for (const auto& [sensor, points] : sights) {
+    for (const auto& [sensor, points, cloud] : sights) {
       totals[sensor].points += static_cast<double>(points);
       totals[sensor].readings += 1;
+      totals[sensor].cloud = totals[sensor].cloud || cloud;
     }
   }
   std::vector<SensorUse> sensors;
   for (const auto& [sensor, total] : totals) {
-    sensors.push_back({sensor, total.points > kMaxExactPoints * total.readings});
+    const double most = total.cloud ? kMaxExactCloud : kMaxExactPoints;
+    sensors.push_back({sensor, total.points > most * total.readings});
   }
   return sensors;
 }
@@ -37,10 +40,10 @@ std::vector<Sight> KeyframeSpaceSource::sights(int keyframe) const {
   const auto observation =
       observations_.load(keyframes_[static_cast<size_t>(keyframe)].observation);
   for (const Reading& r : observation->readings) {
-    sights.push_back({{SensorKind::range, r.sensor}, r.points_sensor.size()});
+    sights.push_back({{SensorKind::range, r.sensor}, r.points_sensor.size(), is_cloud(r)});
   }
   for (const LandmarkReading& r : observation->landmark_readings) {
-    sights.push_back({{SensorKind::landmarks, r.sensor}, 0});
+    sights.push_back({{SensorKind::landmarks, r.sensor}, 0, false});
   }
   return sights;
 }

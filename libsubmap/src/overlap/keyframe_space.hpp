@@ -32,6 +32,7 @@ struct Sensor {
 struct Sight {
   Sensor sensor;
   size_t points = 0;
+  bool cloud = false;
 };
 
 /// A sensor of the log and what its readings are compared by.
@@ -41,7 +42,7 @@ struct SensorUse {
 };
 
 /// All sensors of the log, sorted, from those of each keyframe. Range sensors with more than
-/// kMaxExactPoints a reading on average are compared by voxels.
+/// kMaxExactPoints a reading on average, of clouds kMaxExactCloud, are compared by voxels.
 std::vector<SensorUse> sensors_of(std::span<const std::vector<Sight>> keyframes);
 
 /// What one sensor sensed at a keyframe; nothing where it has no reading.

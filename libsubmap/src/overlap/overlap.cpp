@@ -42,7 +42,8 @@ double voxel_overlap(const Reading& a, const Reading& b, const Relation& relatio
 
 void add_overlap(const Reading& a, const Reading& b, const Relation& relation, MeanOverlap& mean) {
   const auto points = static_cast<double>(a.points_sensor.size() + b.points_sensor.size());
-  if (points / 2 > kMaxExactPoints) {
+  const bool cloud = is_cloud(a) || is_cloud(b);
+  if (points / 2 > (cloud ? kMaxExactCloud : kMaxExactPoints)) {
     // Laid out in the frame of either, so that none comes first.
     const Relation back(relation.T_a_b.inverse(),
                         graph::inverse_covariance(relation.T_a_b, relation.covariance_a_b),

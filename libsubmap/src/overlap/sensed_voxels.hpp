@@ -12,9 +12,11 @@
 
 namespace hmt::submap {
 
-/// Clouds of more points than this, on average over the readings that are compared, are compared by
-/// voxels: point by point a pair of them would take more than some milliseconds.
+/// Readings of more points than this, on average over those that are compared, are compared by
+/// voxels: point by point a pair of them would take more than some milliseconds. Of clouds fewer,
+/// for sparse ones have wide gates, which reach from one surface to the next.
 inline constexpr double kMaxExactPoints = 8192;
+inline constexpr double kMaxExactCloud = 1024;
 
 /// A large cloud as the voxels that it occupies: the map elements are voxels [Blanco 2009,
 /// footnote 3], as wide as the gate of a point some 10 m from a spinning lidar. A voxel is occupied

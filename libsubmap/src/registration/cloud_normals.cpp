@@ -17,6 +17,12 @@ constexpr double kCell_m = 0.5;
 // in steps of the finer one; it stays below what a facade is flat over.
 constexpr double kRadiusSteps = 6;
 constexpr double kLargestRadius_m = 1.5;
+// Where a disc bends around an edge, or over rough ground, a narrower one may still be flat.
+constexpr int kNarrowings = 3;
+constexpr double kNarrowing = 1.5;
+// Sine of the flattest angle: the beams of several rings meet in a plane, mixed pixels do not, but
+// ground beyond some 50 m shows less height than noise.
+constexpr double kFlattest = 0.03;
 
 LocalFit fit_plane(const std::vector<Eigen::Vector3d>& points, const PointGrid& grid, size_t i,
                    double radius_m) {
@@ -45,8 +51,14 @@ std::vector<PointNormal> cloud_normals(const std::vector<Eigen::Vector3d>& point
   std::vector<PointNormal> normals(points_sensor.size());
   for (size_t i = 0; i < normals.size(); ++i) {
     normals[i].sigma_m = noise_m;
+    for (int k = 0; k < kNarrowings && fits[i].points > kPlaneParameters + 1 &&
+                    !is_smooth(fits[i], kPlaneParameters, noise_m);
+         ++k) {
+      radii_m[i] /= kNarrowing;
+      fits[i] = fit_plane(points_sensor, grid, i, radii_m[i]);
+    }
     if (is_smooth(fits[i], kPlaneParameters, noise_m))
-      normals[i] = normal_from_fit(fits[i], kPlaneParameters, noise_m, points_sensor[i]);
+      normals[i] = normal_from_fit(fits[i], kPlaneParameters, noise_m, points_sensor[i], kFlattest);
     // Points spread evenly over the disc of the fit are about this far from each other.
     normals[i].spacing_m = radii_m[i] / std::sqrt(std::max(1, fits[i].points));
   }

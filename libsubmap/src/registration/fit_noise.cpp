@@ -13,8 +13,6 @@ constexpr double kLargestNoise_m = 0.05;
 // Residuals of a fit within so many standard deviations of the reading's noise: one surface. The
 // largest of some hundred sample deviations with few degrees of freedom stays below it.
 constexpr double kSmoothFactor = 2.5;
-// Sine of the flattest angle, about 4.6 degrees, at which a surface is told from mixed pixels.
-constexpr double kFlattest = 0.08;
 // A fit's own residuals against the reading's: worth so many degrees of freedom of the latter.
 constexpr double kPriorFreedom = 4;
 
@@ -40,12 +38,12 @@ bool is_smooth(const LocalFit& fit, int fit_parameters, double noise_m) {
 }
 
 PointNormal normal_from_fit(const LocalFit& fit, int fit_parameters, double noise_m,
-                            const Eigen::Vector3d& point_sensor) {
+                            const Eigen::Vector3d& point_sensor, double flattest) {
   PointNormal result;
   const double freedom = fit.points - fit_parameters + kPriorFreedom;
   result.sigma_m = std::sqrt((fit.residual2 + kPriorFreedom * noise_m * noise_m) / freedom);
   const double towards_sensor = -fit.normal.dot(point_sensor.normalized());
-  if (std::abs(towards_sensor) < kFlattest || fit.spread2 <= 0) return result;
+  if (std::abs(towards_sensor) < flattest || fit.spread2 <= 0) return result;
   result.normal = towards_sensor > 0 ? fit.normal : Eigen::Vector3d(-fit.normal);
   result.normal_sigma_rad = result.sigma_m / std::sqrt(fit.spread2);
   return result;

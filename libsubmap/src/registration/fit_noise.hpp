@@ -20,8 +20,9 @@ double median_noise_m(const std::vector<LocalFit>& fits, int fit_parameters);
 bool is_smooth(const LocalFit& fit, int fit_parameters, double noise_m);
 
 /// Normal, its noise and the point's noise from a fit; the normal stays zero where the surface is
-/// seen at so flat an angle that it may be a chain of mixed pixels between two depths.
+/// seen at so flat an angle, its sine below `flattest`, that it may be a chain of mixed pixels
+/// between two depths.
 PointNormal normal_from_fit(const LocalFit& fit, int fit_parameters, double noise_m,
-                            const Eigen::Vector3d& point_sensor);
+                            const Eigen::Vector3d& point_sensor, double flattest);
 
 }  // namespace hmt::submap

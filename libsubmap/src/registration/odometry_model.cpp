@@ -18,6 +18,8 @@ constexpr double kLargestStep_m = 10;
 // Motion after which what was learnt counts half: a carpet or a heap of people changes the slip.
 constexpr double kMemory = 50;
 constexpr double kRestMemory = 200;  // steps
+// ... but no more than this share of all motion so far.
+constexpr double kEarlyShare = 0.25;
 
 struct Motion {
   double translation = 0;  // distance + l |rotation|
@@ -30,43 +32,59 @@ Motion motion_of(const Pose& step) {
   return {distance_m + kTurnLength_m * angle_rad, angle_rad + distance_m / kTurnLength_m / 10};
 }
 
+// Motion of each axis of the tangent.
+Vector6d by_axis(const Motion& motion) {
+  Vector6d amounts;
+  amounts << Eigen::Vector3d::Constant(motion.translation),
+      Eigen::Vector3d::Constant(motion.rotation);
+  return amounts;
+}
+
 }  // namespace
 
-void OdometryModel::Rate::add(double square, double more, double memory) {
-  const double keep = std::exp2(-more / memory);
-  squares = keep * squares + square;
-  amount = keep * amount + more;
+void OdometryModel::Rate::add(double square, double more, double memory, double weight) {
+  const double keep = std::exp2(-weight * more / memory);
+  squares = keep * squares + weight * square;
+  amount = keep * amount + weight * more;
+  seen += weight * more;
 }
 
 Matrix6d OdometryModel::covariance(const Pose& step) const {
-  const Motion motion = motion_of(step);
-  const double translation = rest_translation_.value() + translation_.value() * motion.translation;
-  const double rotation = rest_rotation_.value() + rotation_.value() * motion.rotation;
-  Vector6d variances;
-  variances << translation, translation, translation, rotation, rotation, rotation;
-  if (space_ == Space::se2) variances.segment<3>(2).setZero();
+  const Vector6d amounts = by_axis(motion_of(step));
+  Vector6d variances = Vector6d::Zero();
+  for (Eigen::Index k = 0; k < 6; ++k)
+    if (space_ == Space::se3 || k < 2 || k == 5) {
+      const auto i = static_cast<size_t>(k);
+      variances[k] = rest_[i].value() + moving_[i].value() * amounts[k];
+    }
   return variances.asDiagonal();
 }
 
-void OdometryModel::learn(const Pose& odometry_step, const Pose& measured_step) {
-  const Motion motion = motion_of(odometry_step);
-  const Vector6d error = boxminus(measured_step, odometry_step);
-  const double translation = error.head<3>().squaredNorm() / (space_ == Space::se2 ? 2 : 3);
-  const double rotation = error.tail<3>().squaredNorm() / (space_ == Space::se2 ? 1 : 3);
-  if (is_rest(odometry_step)) {
-    rest_translation_.add(translation, 1, kRestMemory);
-    rest_rotation_.add(rotation, 1, kRestMemory);
-  } else {
-    translation_.add(translation, motion.translation, kMemory);
-    rotation_.add(rotation, motion.rotation, kMemory);
+void OdometryModel::learn(const Pose& odometry_step, const Pose& measured_step,
+                          const Vector6d& noise) {
+  const bool rest = is_rest(odometry_step);
+  const Vector6d amounts = rest ? Vector6d(Vector6d::Ones()) : by_axis(motion_of(odometry_step));
+  const Vector6d known = covariance(odometry_step).diagonal();
+  Vector6d squares = boxminus(measured_step, odometry_step).cwiseAbs2();
+  if (space_ == Space::se2) squares.head<2>().setConstant(squares.head<2>().mean());
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    if (known[k] <= 0) continue;
+    // The least-squares weight of a squared difference, whose variance is twice its square.
+    const double share = known[k] / (known[k] + noise[k]);
+    Rate& rate = (rest ? rest_ : moving_)[static_cast<size_t>(k)];
+    const double memory = rest ? kRestMemory : kMemory;
+    // In space odometry ranges from wheels to inertial units, orders of magnitude apart: the start
+    // values are forgotten as fast as anything is learnt.
+    rate.add(squares[k] - noise[k], amounts[k],
+             space_ == Space::se2 ? memory : std::min(memory, kEarlyShare * rate.seen + amounts[k]),
+             share * share);
   }
 }
 
 OdometryModel OdometryModel::of_unknown_motion(Space space) {
   OdometryModel model(space);
   // A robot that drives off, or turns, within one step.
-  model.rest_translation_ = {5 * 0.1, 5};
-  model.rest_rotation_ = {5 * 0.05, 5};
+  model.rest_ = all({5 * 0.1, 5}, {5 * 0.05, 5});
   return model;
 }
 

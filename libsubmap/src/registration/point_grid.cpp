@@ -13,7 +13,7 @@ constexpr double kRim = 1048575.0;
 }  // namespace
 
 PointGrid::PointGrid(std::span<const Eigen::Vector3d> points, double cell_m)
-    : inverse_cell_(1 / cell_m) {
+    : cell_m_(cell_m), inverse_cell_(1 / cell_m) {
   size_t capacity = 16;
   while (capacity < 2 * points.size()) capacity *= 2;
   mask_ = capacity - 1;

@@ -12,6 +12,8 @@ namespace {
 // Points closer than this on one surface say the same; far below the size of furniture.
 constexpr double kMergeCell_m = 0.05;
 constexpr double kSearchCell_m = 0.25;
+// In space a cell of twice the side holds as many points, and there are fewer to look into.
+constexpr double kCloudSearchCell_m = 0.5;
 
 struct PlacedPoint {
   uint64_t key = 0;  // cell and side that the normal points to
@@ -99,7 +101,9 @@ RegistrationTarget::RegistrationTarget(std::span<const Placed> surfaces)
     points.push_back(impl_->elements.back().point);
     begin = end;
   }
-  impl_->grid = PointGrid(points, kSearchCell_m);
+  const bool planar = std::all_of(points.begin(), points.end(),
+                                  [](const Eigen::Vector3d& p) { return p.z() == 0; });
+  impl_->grid = PointGrid(points, planar ? kSearchCell_m : kCloudSearchCell_m);
 }
 
 RegistrationTarget::~RegistrationTarget() = default;

@@ -15,6 +15,8 @@ constexpr int kLineParameters = 2;
 // noise of a centimetre turns the line by less than a few degrees. At least so many spacings.
 constexpr double kHalfLength_m = 0.15;
 constexpr double kHalfLengthSpacings = 2.5;
+// Sine of the flattest angle, about 4.6 degrees, at which a surface is told from mixed pixels.
+constexpr double kFlattest = 0.08;
 
 // Neighbouring beams see one surface if it is met at more than about 10 degrees (spacing at most
 // 6 times that of a surface across the beam), give or take noise.
@@ -124,7 +126,7 @@ std::vector<PointNormal> scan_normals(const std::vector<Eigen::Vector3d>& points
   for (size_t i = 0; i < n; ++i) {
     const LocalFit fit = best_line(points_sensor, windows[i], fits[i], i, noise_m);
     if (fit.points > 0)
-      normals[i] = normal_from_fit(fit, kLineParameters, noise_m, points_sensor[i]);
+      normals[i] = normal_from_fit(fit, kLineParameters, noise_m, points_sensor[i], kFlattest);
     else
       normals[i].sigma_m = noise_m;
     normals[i].normal_sigma_rad *= excess;

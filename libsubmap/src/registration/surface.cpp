@@ -7,19 +7,13 @@
 namespace hmt::submap {
 namespace {
 
-bool is_planar(const Reading& reading) {
-  for (const Eigen::Vector3f& p : reading.points_sensor)
-    if (p.z() != 0.0F) return false;
-  return true;
-}
-
 void append_reading(const Reading& reading, Surface& surface) {
   std::vector<Eigen::Vector3d> points;
   points.reserve(reading.points_sensor.size());
   for (const Eigen::Vector3f& p : reading.points_sensor) points.push_back(p.cast<double>());
-  const std::vector<PointNormal> normals = is_planar(reading)
-                                               ? scan_normals(points, reading.beam_step_rad)
-                                               : cloud_normals(points, reading.beam_step_rad);
+  const std::vector<PointNormal> normals = is_cloud(reading)
+                                               ? cloud_normals(points, reading.beam_step_rad)
+                                               : scan_normals(points, reading.beam_step_rad);
   const Eigen::Matrix3d R = reading.T_robot_sensor.rotation_matrix();
   for (size_t i = 0; i < points.size(); ++i) {
     surface.points_robot.push_back(reading.T_robot_sensor * points[i]);

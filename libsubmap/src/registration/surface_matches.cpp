@@ -15,6 +15,9 @@ constexpr double kLeastNormalAgreement = 0.7;
 constexpr double kScaleDeviations = 3;
 // Standard deviation of a normal distribution over the median of its absolute values.
 constexpr double kDeviationOverMedian = 1.4826;
+// Vertical part of the normal of a level surface; so many matches tell how well they fit.
+constexpr double kLevel = 0.7;
+constexpr size_t kLeastLevel = 20;
 // Neighbors on one surface are looked for at least this far.
 constexpr double kLeastRadius_m = 0.15;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
@@ -59,10 +62,11 @@ void SurfaceMatcher::find_match(uint32_t i, const Pose& T_target_source, const E
       best2 = distance2;
       best = static_cast<uint32_t>(k);
     }
+    return best2;
   };
   // The element of the last pose is mostly the nearest one still, and bounds the search.
   if (last_[i] != kNone) visit(last_[i]);
-  target_->grid.visit_near(p, best == kNone ? radius_m_ : std::sqrt(best2), visit);
+  target_->grid.visit_nearer(p, best2, visit);
   last_[i] = best;
   if (best == kNone) return;
   const SurfaceElement& element = target_->elements[best];
@@ -76,18 +80,28 @@ void SurfaceMatcher::find_match(uint32_t i, const Pose& T_target_source, const E
   matches_.push_back(match);
 }
 
-void SurfaceMatcher::shrink() {
-  if (matches_.empty()) return;
+// Median of |residual| over the matches on level surfaces, or over the others; 0 where they are
+// few.
+double SurfaceMatcher::median_residual_m(bool level) {
   sorted_.clear();
-  double variance = 0;
-  for (const Match& match : matches_) {
-    sorted_.push_back(std::abs(match.residual_m));
-    variance += match.variance();
-  }
+  for (const Match& match : matches_)
+    if ((std::abs(target_->elements[match.element].normal.z()) > kLevel) == level)
+      sorted_.push_back(std::abs(match.residual_m));
+  if (sorted_.empty() || (level && sorted_.size() < kLeastLevel)) return 0;
   const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
   std::nth_element(sorted_.begin(), middle, sorted_.end());
+  return *middle;
+}
+
+void SurfaceMatcher::shrink() {
+  if (matches_.empty()) return;
+  double variance = 0;
+  for (const Match& match : matches_) variance += match.variance();
+  // Ground may be a tenth of what is seen and is all that tells the height: walls that fit already
+  // must not make outliers of it.
+  const double median_m = std::max(median_residual_m(false), median_residual_m(true));
   const double noise_m = std::sqrt(variance / static_cast<double>(matches_.size()));
-  const double wanted_m = kScaleDeviations * std::max(noise_m, kDeviationOverMedian * *middle);
+  const double wanted_m = kScaleDeviations * std::max(noise_m, kDeviationOverMedian * median_m);
   shrunk_ = wanted_m < 0.99 * scale_m_;
   scale_m_ = std::min(scale_m_, wanted_m);
   radius_m_ = std::min(radius_m_, std::max(kLeastRadius_m, 2 * scale_m_));

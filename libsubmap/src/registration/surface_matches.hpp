@@ -43,6 +43,7 @@ class SurfaceMatcher {
 
  private:
   void find_match(uint32_t i, const Pose& T_target_source, const Eigen::Matrix3d& R);
+  double median_residual_m(bool level);
   void shrink();
 
   const Surface* source_;

@@ -37,6 +37,11 @@ Matrix6d unknown_step(Space space) {
 // A registration is taken if so many of the usable points meet the local map; new sights open at
 // less than half of the view from one observation to the next.
 constexpr double kLeastInlierFraction = 0.5;
+// Clouds see farther: more of each is new.
+constexpr double kLeastCloudInlierFraction = 0.3;
+// Clouds fill the plane, so no search from above helps; surfaces stand metres apart, so a wide
+// search for corresponding points does.
+constexpr double kWideCorrespondence_m = 2.0;
 // Chi2 of three degrees of freedom beyond which a prediction is doubted (one in a thousand).
 constexpr double kDoubtful2 = 16;
 // A registration that contradicts the odometry needs more inliers: wheels slip and clocks jitter
@@ -79,7 +84,8 @@ Tracker::Tracker(Space space, const TrackOptions& options)
 
 void Tracker::start(const Observation& observation, Surface surface) {
   T_track_latest_ = observation.T_odom_robot;
-  add_keyframe(observation, {T_track_latest_, diagonal_in(space_, kDefining, kDefining), true},
+  add_keyframe(observation,
+               {T_track_latest_, diagonal_in(space_, kDefining, kDefining), true, T_track_latest_},
                std::move(surface));
 }
 
@@ -144,23 +150,28 @@ Tracker::Motion Tracker::predict_step(const Observation& observation) {
 void Tracker::learn_odometry(const Motion& motion, const Prediction& prediction,
                              const Estimate& found) {
   if (!found.registered) return;
+  const Matrix6d noise = inverse_in(space_, found.information + kNothing * Matrix6d::Identity());
   if (motion.by_odometry && space_ == Space::se2) {
-    // The estimate lies between the prediction p and what the surfaces alone say, m:
-    // x - p = (I + P)^-1 I (m - p) with their informations I and P.
     const Eigen::Array3i plane(0, 1, 5);
-    const Vector6d moved = boxminus(found.T_track_robot, prediction.T_track_robot);
-    const Eigen::Matrix3d noise =
-        (found.information + kNothing * Matrix6d::Identity())(plane, plane).inverse();
-    const Eigen::Vector3d free =
-        moved(plane) + noise * (prediction.information(plane, plane) * moved(plane)).eval();
-    const Eigen::Matrix3d covariance = noise + prediction.covariance(plane, plane);
+    const Vector6d free = boxminus(found.T_track_measured, prediction.T_track_robot);
+    const Eigen::Matrix3d covariance = (noise + prediction.covariance)(plane, plane);
     const Eigen::Array2i along(0, 2);
-    calibration_.learn(motion.odometry, motion.duration_s, free(along), covariance(along, along));
+    calibration_.learn(motion.odometry, motion.duration_s, free(plane)(along),
+                       covariance(along, along));
+  }
+  const Pose measured = relative_pose(T_track_latest_, found.T_track_robot);
+  if (space_ == Space::se3) {
+    if (motion.by_odometry)
+      step_odometry_.learn(
+          motion.step, relative_pose(T_track_latest_, found.T_track_measured),
+          (noise + compose_covariance(motion.step, covariance_latest_, Matrix6d::Zero()))
+              .diagonal());
+    if (!odometry_moves_) steady_.learn(motion.step, measured, Vector6d::Zero());
+    return;
   }
   if (!observes_all(space_, found.information, prediction.information)) return;
-  const Pose measured = relative_pose(T_track_latest_, found.T_track_robot);
-  if (motion.by_odometry) step_odometry_.learn(motion.step, measured);
-  if (!odometry_moves_) steady_.learn(motion.step, measured);
+  if (motion.by_odometry) step_odometry_.learn(motion.step, measured, Vector6d::Zero());
+  if (!odometry_moves_) steady_.learn(motion.step, measured, Vector6d::Zero());
 }
 
 double Tracker::mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const {
@@ -180,19 +191,26 @@ Tracker::Estimate Tracker::estimate(const Surface& surface, const Prediction& pr
   options.prior = PosePrior{prediction.T_track_robot, prediction.information};
   Registration found = register_surface(surface, map_.target(), prediction.T_track_robot, options);
   // Without odometry the guess may be so far off that a wrong pose fits well enough.
-  if (!odometry_moves_ || credit(found, prediction) < kLeastInlierFraction ||
+  const double least = space_ == Space::se2 ? kLeastInlierFraction : kLeastCloudInlierFraction;
+  if (!odometry_moves_ || credit(found, prediction) < least ||
       mahalanobis2(found.T_target_source, prediction) > kDoubtful2) {
-    found = search(surface, prediction, found);
-    if (credit(found, prediction) < kLeastInlierFraction) {
+    found = space_ == Space::se2 ? search(surface, prediction, found)
+                                 : search_wide(surface, prediction, found);
+    if (credit(found, prediction) < least) {
       ++counts_.odometry_only;
       if (found.termination != Registration::Termination::too_few_points) ++refused_;
-      return {prediction.T_track_robot, Matrix6d::Zero(), false};
+      return {prediction.T_track_robot, Matrix6d::Zero(), false, prediction.T_track_robot};
     }
     ++counts_.searched;
   }
   ++counts_.registered;
   refused_ = 0;
-  return {found.T_target_source, found.information, true};
+  // The estimate lies between the prediction p and what the surfaces alone say, m:
+  // x - p = (I + P)^-1 I (m - p) with their informations I and P.
+  const Vector6d moved = boxminus(found.T_target_source, prediction.T_track_robot);
+  const Matrix6d noise = inverse_in(space_, found.information + kNothing * Matrix6d::Identity());
+  const Vector6d free = moved + noise * (prediction.information * moved);
+  return {found.T_target_source, found.information, true, boxplus(prediction.T_track_robot, free)};
 }
 
 Registration Tracker::search(const Surface& surface, const Prediction& prediction,
@@ -213,6 +231,17 @@ Registration Tracker::search(const Surface& surface, const Prediction& predictio
   if (far.size() > 1 && far[1].score > kAmbiguousShare * far[0].score) return near;
   const Registration best = best_of(far, surface, prediction, near);
   return best.inlier_fraction >= kLeastFarInlierFraction ? best : near;
+}
+
+Registration Tracker::search_wide(const Surface& surface, const Prediction& prediction,
+                                  const Registration& first) const {
+  RegistrationOptions options;
+  options.space = space_;
+  options.max_correspondence_m = kWideCorrespondence_m;
+  options.prior = PosePrior{prediction.T_track_robot, prediction.information};
+  const Registration found =
+      register_surface(surface, map_.target(), prediction.T_track_robot, options);
+  return credit(found, prediction) > credit(first, prediction) ? found : first;
 }
 
 Registration Tracker::best_of(const std::vector<CorrelativeMatch>& matches, const Surface& surface,
@@ -251,8 +280,12 @@ void Tracker::add_keyframe(const Observation& observation, const Estimate& estim
     by_odometry /= std::max(1.0, error.dot(by_odometry * error) / unknowns);
     track_.odometry.push_back({previous.id, previous.id + 1, ConstraintKind::odometry, T_a_b,
                                by_registration + by_odometry});
-    if (odometry_unbroken_ && observes_all(space_, by_registration, by_odometry))
-      keyframe_odometry_.learn(T_keyframe_odometry_, T_a_b);
+    if (odometry_unbroken_ && space_ == Space::se3 && estimate.registered)
+      keyframe_odometry_.learn(
+          T_keyframe_odometry_, relative_pose(previous.T_track_robot, estimate.T_track_measured),
+          inverse_in(space_, by_registration + kNothing * Matrix6d::Identity()).diagonal());
+    else if (odometry_unbroken_ && observes_all(space_, by_registration, by_odometry))
+      keyframe_odometry_.learn(T_keyframe_odometry_, T_a_b, Vector6d::Zero());
   }
   track_.keyframes.push_back({static_cast<int>(track_.keyframes.size()), observation.index,
                               observation.stamp_s, estimate.T_track_robot});

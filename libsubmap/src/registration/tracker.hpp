@@ -34,6 +34,7 @@ class Tracker {
     Pose T_track_robot;
     Matrix6d information = Matrix6d::Zero();  // of the registration alone
     bool registered = false;
+    Pose T_track_measured;  // what the surfaces alone say, without the prediction
   };
 
   struct Prediction {
@@ -54,6 +55,9 @@ class Tracker {
   Estimate estimate(const Surface& surface, const Prediction& prediction);
   Registration search(const Surface& surface, const Prediction& prediction,
                       const Registration& first);
+  /// In space: registration from farther away.
+  Registration search_wide(const Surface& surface, const Prediction& prediction,
+                           const Registration& first) const;
   Registration best_of(const std::vector<CorrelativeMatch>& matches, const Surface& surface,
                        const Prediction& prediction, const Registration& first) const;
   /// Inlier fraction less what the contradiction to the odometry costs.

@@ -29,9 +29,10 @@ PairCovariance growing(const Drive& drive, double m_per_m, double rad_per_m) {
 }
 
 std::vector<LoopCandidate> search(const Drive& drive, const PairCovariance& covariance,
-                                  int threads = 2) {
+                                  int threads = 2, Space space = Space::se2) {
   const ObservationVector store(drive.observations);
   LoopProblem problem;
+  problem.space = space;
   problem.keyframes = drive.keyframes;
   problem.T_world_keyframe = drive.estimate;
   problem.submap = drive.submap;
@@ -162,6 +163,42 @@ TEST(SearchLoops, AsksBeforeItSearches) {
   problem.covariance = growing(drive, 0.02, 0.002);
   problem.observations = &store;
   EXPECT_TRUE(search_loops(problem, submap::Run{}).empty());
+}
+
+/// The same drive with clouds instead of scans, and an estimate that climbs.
+Drive with_clouds(Drive drive, const std::vector<Wall>& walls, double climb_m_per_m) {
+  std::mt19937 random(5);
+  for (size_t k = 0; k < drive.truth.size(); ++k) {
+    drive.observations[k] =
+        test::cloud(walls, 3.0, drive.truth[k], {.max_range_m = 30, .noise_m = 0.01}, random);
+    drive.observations[k].index = static_cast<int64_t>(k);
+    drive.estimate[k].translation.z() += climb_m_per_m * drive.path_m[k];
+  }
+  return drive;
+}
+
+PairCovariance growing_in_space(const Drive& drive, double m_per_m, double rad_per_m) {
+  return [&drive, m_per_m, rad_per_m](int a, int b) -> std::optional<Matrix6d> {
+    const double way = drive.path_m[static_cast<size_t>(b)] - drive.path_m[static_cast<size_t>(a)];
+    Vector6d sigma;
+    sigma << Eigen::Vector3d::Constant(m_per_m * way), Eigen::Vector3d::Constant(rad_per_m * way);
+    return Matrix6d(sigma.cwiseAbs2().asDiagonal());
+  };
+}
+
+TEST(SearchLoops, ClosesASecondRoundOfCloudsInSpace) {
+  const std::vector<Eigen::Vector2d> around = {{0, 0}, {20, 0}, {20, 12}, {0, 12}, {0, 0}, {12, 0}};
+  const Drive drive =
+      with_clouds(test::drive(ring(), around, {0.005, 0.0008}, {.beams = 3}), ring(), 0.008);
+  const auto candidates = search(drive, growing_in_space(drive, 0.015, 0.002), 2, Space::se3);
+  EXPECT_GE(count(candidates, LoopVerdict::accepted), 3);
+  for (const LoopCandidate& c : candidates) {
+    if (c.verdict != LoopVerdict::accepted) continue;
+    EXPECT_LT(error_m(drive, c), 0.06) << c.a << " " << c.b;
+    const Pose T_a_b = graph::relative_pose(drive.truth[static_cast<size_t>(c.a)],
+                                            drive.truth[static_cast<size_t>(c.b)]);
+    EXPECT_LT(graph::boxminus(c.T_a_b, T_a_b).tail<3>().norm(), 0.01) << c.a << " " << c.b;
+  }
 }
 
 }  // namespace

@@ -131,5 +131,21 @@ TEST(RegisterSurface, IsRepeatable) {
   EXPECT_TRUE(one.information == two.information);
 }
 
+TEST(RegisterSurface, FindsTheHeightByTheLittleGroundThatIsSeen) {
+  std::mt19937 random(1);
+  const test::Lidar lidar{.max_range_m = 30, .noise_m = 0.01};
+  const Pose T_a_b = Pose::planar(1, 0.3, 0.2);
+  const Surface a = make_surface(test::cloud(test::room(), 3, Pose{}, lidar, random));
+  const Surface b = make_surface(test::cloud(test::room(), 3, T_a_b, lidar, random));
+  const RegistrationTarget::Placed placed[] = {{Pose{}, &a}};
+  Pose T_guess = T_a_b;
+  T_guess.translation.z() = 0.3;
+  RegistrationOptions options;
+  options.space = Space::se3;
+  const Registration result = register_surface(b, RegistrationTarget(placed), T_guess, options);
+  EXPECT_EQ(result.termination, Registration::Termination::converged);
+  EXPECT_LT(graph::boxminus(result.T_target_source, T_a_b).norm(), 0.005);
+}
+
 }  // namespace
 }  // namespace hmt::submap

@@ -74,6 +74,50 @@ inline submap::Observation scan(const std::vector<Wall>& walls, const submap::Po
   return observation;
 }
 
+/// A spinning lidar: `rings` from -20 to 12 degrees of elevation, all around.
+struct Lidar {
+  int rings = 16;
+  int beams = 180;
+  double height_m = 1.5;  ///< above the ground, at the robot's origin
+  double max_range_m = 40;
+  double noise_m = 0;
+};
+
+/// What the lidar, at the robot's origin, sees of walls of that height on level ground. Poses may
+/// not tilt.
+inline submap::Observation cloud(const std::vector<Wall>& walls, double wall_height_m,
+                                 const submap::Pose& T_world_robot, const Lidar& lidar,
+                                 std::mt19937& random) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  std::normal_distribution<double> noise(0, 1);
+  submap::Reading reading;
+  reading.max_range_m = lidar.max_range_m;
+  reading.beam_step_rad = 2 * std::numbers::pi / lidar.beams;
+  for (int i = 0; i < lidar.beams; ++i) {
+    const double bearing = i * reading.beam_step_rad;
+    const double heading = T_world_robot.yaw_rad() + bearing;
+    const double wall_m = ray_range_m(walls, T_world_robot.translation.head<2>(),
+                                      {std::cos(heading), std::sin(heading)});
+    for (int ring = 0; ring < lidar.rings; ++ring) {
+      const double elevation = (-20 + 32.0 * ring / (lidar.rings - 1)) * kDegree;
+      const double ground_m = elevation < 0 ? -lidar.height_m / std::tan(elevation)
+                                            : std::numeric_limits<double>::infinity();
+      const bool over = lidar.height_m + wall_m * std::tan(elevation) > wall_height_m;
+      const double across_m =
+          std::min(ground_m, over ? std::numeric_limits<double>::infinity() : wall_m);
+      const double range_m = across_m / std::cos(elevation) + lidar.noise_m * noise(random);
+      if (range_m > lidar.max_range_m) continue;
+      reading.points_sensor.emplace_back(
+          (range_m * Eigen::Vector3d(std::cos(elevation) * std::cos(bearing),
+                                     std::cos(elevation) * std::sin(bearing), std::sin(elevation)))
+              .cast<float>());
+    }
+  }
+  submap::Observation observation;
+  observation.readings.push_back(std::move(reading));
+  return observation;
+}
+
 /// Two long walls that meet at a right angle at (5, 5), in front and to the left of the origin.
 inline std::vector<Wall> right_angle() {
   return {{{5, -20}, {5, 5}}, {{5, 5}, {-20, 5}}};

@@ -70,6 +70,9 @@ struct Observation {
   bool operator==(const Observation&) const = default;
 };
 
+/// Whether a reading is a cloud: any of its points lies off the plane z = 0 of the sensor.
+bool is_cloud(const Reading& reading);
+
 /// All measured points in the robot frame, readings one after the other.
 std::vector<Eigen::Vector3d> points_in_robot(const Observation& observation);
 
