@@ -138,8 +138,7 @@ LoopCandidate examine_loop(const LoopProblem& problem, std::span<const PlanarSca
     return refuse(candidate, LoopVerdict::low_score,
                   text("nowhere do %.0f %% of the points meet the map", 100 * kLeastScore));
   // Height and tilt are those of the prediction.
-  candidate.T_a_b =
-      map.patch().T_level_center.inverse() * best->T_map_query * query.T_level_center;
+  candidate.T_a_b = map.patch().T_level_center.inverse() * best->T_map_query * query.T_level_center;
   candidate.information = match_information();
   candidate.score = best->score;
   candidate.mahalanobis = mahalanobis(proposal, candidate.T_a_b);

@@ -18,8 +18,8 @@ inline double query_range_m(Space space) {
   return space == Space::se2 ? kQueryRangeM : kCloudQueryRangeM;
 }
 
-/// A pose as its place seen from above and the rest: T_world_robot = T_world_level T_level_robot, the
-/// first a planar pose, the second height and tilt. In Space::se2 all of it is place.
+/// A pose as its place seen from above and the rest: T_world_robot = T_world_level T_level_robot,
+/// the first a planar pose, the second height and tilt. In Space::se2 all of it is place.
 struct LevelPose {
   Pose T_world_level;
   Pose T_level_robot;

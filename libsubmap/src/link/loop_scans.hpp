@@ -30,8 +30,9 @@ struct PlanarScan {
 PlanarScan make_planar_scan(const Observation& observation);
 
 /// Of clouds: the points on upright surfaces, seen from above. What stands upright looks the same
-/// from any height, and ground and ceiling say nothing about the place. A cloud looks over and under
-/// what is in its way, so it tells of no free space in the plane. `T_level_robot`: tilt and height.
+/// from any height, and ground and ceiling say nothing about the place. A cloud looks over and
+/// under what is in its way, so it tells of no free space in the plane. `T_level_robot`: tilt and
+/// height.
 PlanarScan make_upright_scan(const Surface& surface, const Pose& T_level_robot);
 
 /// True where the observation looked through the place of a point: a surface was seen at least

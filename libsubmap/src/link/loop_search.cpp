@@ -49,9 +49,9 @@ std::vector<PlanarScan> load_scans(const LoopProblem& problem, std::span<const d
     const auto observation = problem.observations->load(problem.keyframes[k].observation);
     scans[k] = problem.space == Space::se2
                    ? make_planar_scan(*observation)
-                   : make_upright_scan(make_surface(*observation),
-                                       level_pose(problem.space, problem.T_world_keyframe[k])
-                                           .T_level_robot);
+                   : make_upright_scan(
+                         make_surface(*observation),
+                         level_pose(problem.space, problem.T_world_keyframe[k]).T_level_robot);
   });
   return scans;
 }

@@ -36,8 +36,8 @@ class OdometryModel {
 
  private:
   struct Rate {
-    double squares;  // fading sum of squared errors
-    double amount;   // fading sum of motion, or of steps
+    double squares;   // fading sum of squared errors
+    double amount;    // fading sum of motion, or of steps
     double seen = 0;  // the same without fading
     double value() const { return std::max(squares / amount, kLeastRate); }
     void add(double square, double more, double memory, double weight);

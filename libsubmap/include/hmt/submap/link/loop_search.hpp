@@ -82,8 +82,9 @@ struct LoopProblem {
 /// keyframe, the query a shorter one; pairs within them, and pairs whose relative pose is known to
 /// a decimetre, are left to plain registration. Verdicts that need all loops together
 /// (inconsistent, outlier) are left to the caller. Ordered by (a, b); same result for any number of
-/// threads. In space the upright surfaces, seen from above, are matched in the plane and registration
-/// finds height and tilt; free space is not looked at, because clouds look over what is in the way.
+/// threads. In space the upright surfaces, seen from above, are matched in the plane and
+/// registration finds height and tilt; free space is not looked at, because clouds look over what
+/// is in the way.
 std::vector<LoopCandidate> search_loops(const LoopProblem& problem, const Run& run);
 
 }  // namespace hmt::submap
