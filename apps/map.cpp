@@ -118,7 +118,9 @@ Action add_map(CLI::App& command) {
                   "A keyframe every so many degrees of turn")
       ->check(CLI::Range(1.0, 180.0))
       ->capture_default_str();
-  command.add_option("--resolution", options.octree_resolution_m, "Cells of the OctoMaps, metres")
+  command
+      .add_option("--resolution", options.octree_resolution_m,
+                  "Cells of the OctoMaps, metres [0.05, in space 0.2]")
       ->check(CLI::Range(0.005, 10.0))
       ->capture_default_str();
   return [arguments](const Globals& globals) { return map_log(*arguments, globals); };

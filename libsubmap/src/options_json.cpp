@@ -7,6 +7,10 @@
 
 namespace hmt::submap {
 
+OctreeOptions octree_options(const Options& options, Space space) {
+  return {options.octree_resolution_m.value_or(space == Space::se2 ? 0.05 : 0.2)};
+}
+
 std::string to_json(const Options& options) {
   nlohmann::ordered_json json;
   json["log"] = {{"scan_topics", options.log.scan_topics},
@@ -22,7 +26,8 @@ std::string to_json(const Options& options) {
                        {"min_keyframes", options.partition.min_keyframes},
                        {"sequential", options.partition.sequential},
                        {"max_window", options.partition.max_window}};
-  json["octree"] = {{"resolution_m", options.octree_resolution_m}};
+  json["octree"] = nlohmann::ordered_json::object();
+  if (options.octree_resolution_m) json["octree"]["resolution_m"] = *options.octree_resolution_m;
   return json.dump();
 }
 
@@ -46,7 +51,8 @@ Options options_from_json(const std::string& text) {
     get("partition", "min_keyframes", options.partition.min_keyframes);
     get("partition", "sequential", options.partition.sequential);
     get("partition", "max_window", options.partition.max_window);
-    get("octree", "resolution_m", options.octree_resolution_m);
+    if (json.at("octree").contains("resolution_m"))
+      options.octree_resolution_m = json["octree"]["resolution_m"].get<double>();
   } catch (const nlohmann::json::exception& error) {
     throw InputError(std::string("the options of the map cannot be read: ") + error.what());
   }

@@ -12,7 +12,6 @@
 
 #include "continue_run.hpp"
 #include "hmt/submap/local/optimize_submap.hpp"
-#include "hmt/submap/map/octree.hpp"
 #include "stages.hpp"
 
 namespace hmt::submap {
@@ -58,7 +57,7 @@ void build_octrees(MapFile& file, const Options& options, const Run& run) {
   std::vector<int> missing;
   for (const Submap& submap : map.submaps)
     if (!file.has_octree(submap.id)) missing.push_back(submap.id);
-  const OctreeOptions octree{options.octree_resolution_m};
+  const OctreeOptions octree = octree_options(options, map.track.space);
   const auto batch = static_cast<size_t>(2 * run.threads);
   tbb::task_arena arena(run.threads);
   for (size_t begin = 0; begin < missing.size(); begin += batch) {

@@ -68,9 +68,8 @@ SubmapReoptimization reoptimize_submap(const std::filesystem::path& path, int id
   const SubmapJob job = job_of(map, map.submaps[static_cast<size_t>(id)]);
   const Submap optimized = optimize_submap(job);
   const Options options = options_from_json(file.origin().options_json);
-  const std::string tree =
-      build_octree(observations_in_submap(map.track, optimized), file, map.track.space,
-                   OctreeOptions{options.octree_resolution_m});
+  const std::string tree = build_octree(observations_in_submap(map.track, optimized), file,
+                                        map.track.space, octree_options(options, map.track.space));
   if (run.stop_requested()) throw Interrupted{};
   StageWriter writer = file.begin(next_stage(file, id));
   writer.put_submap(optimized);

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hmt/submap/local/local_constraints.hpp"
 #include "hmt/submap/map/map_file.hpp"
+#include "hmt/submap/map/octree.hpp"
 #include "hmt/submap/overlap/overlap.hpp"
 #include "hmt/submap/partition/submap_partition.hpp"
 #include "hmt/submap/registration/track.hpp"
@@ -22,9 +24,14 @@ struct Options {
   OverlapOptions overlap;
   LocalConstraintOptions local;
   SubmapPartitionOptions partition;
-  /// Edge of the smallest cells of the OctoMaps, metres, [0.005, 10].
-  double octree_resolution_m = 0.05;
+  /// Edge of the smallest cells of the OctoMaps, metres, [0.005, 10]; nothing: see
+  /// octree_options().
+  std::optional<double> octree_resolution_m;
 };
+
+/// Without a resolution, 5 cm for planar logs and 20 cm in space, where beams reach far and meet
+/// surfaces decimetres apart.
+OctreeOptions octree_options(const Options& options, Space space);
 
 /// All options with their values as a JSON object, one member a stage; equal options give equal
 /// text.
