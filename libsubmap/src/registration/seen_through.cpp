@@ -48,9 +48,12 @@ double seen_through_share(const Surface& source, const RegistrationTarget& targe
     const double range = std::hypot(p.x(), p.y());
     const double measured = ranges[bearing(p.x(), p.y())];
     // The back of a surface is not in view, nor is what lies behind something.
-    const bool faces = (T_source_target.rotation * element.normal).dot(p) < 0;
-    if (!faces || range < kLeastRange_m || measured == 0 || range > measured + kMargin_m) continue;
-    ++(range < measured - kMargin_m ? through : met);
+    const double before_m = -(T_source_target.rotation * element.normal).dot(p);
+    if (before_m <= 0 || range < kLeastRange_m || measured == 0 || range > measured + kMargin_m)
+      continue;
+    // A beam that grazes a surface has not passed through it: it must have ended well behind it.
+    const double behind_m = before_m * (measured / range - 1);
+    ++(behind_m > kMargin_m ? through : met);
   }
   return through + met == 0 ? 0.0 : through / static_cast<double>(through + met);
 }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace hmt::submap {
 namespace {
 
@@ -39,6 +41,23 @@ TEST(SeenThrough, NothingOfAWallBehindTheOneThatIsMeasured) {
 
 TEST(SeenThrough, NothingOfAWallOutOfView) {
   EXPECT_EQ(seen_through_share(wall(3), target_of(wall(3)), Pose::planar(0, 0, 3.1)), 0);
+}
+
+TEST(SeenThrough, NothingOfAWallThatTheBeamsGraze) {
+  // In a doorway: beams pass along the wall at 10 cm and end half a metre farther, 2 cm behind it.
+  Surface along;
+  Surface beyond;
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Vector3d p(1 + 0.1 * k, 0.1, 0);
+    for (const auto& [surface, share] : {std::pair(&along, 1.0), std::pair(&beyond, 1.4)}) {
+      surface->points_robot.push_back(share * p);
+      surface->normals_robot.emplace_back(0, -1, 0);
+      surface->sigma_m.push_back(0.01);
+      surface->normal_sigma_rad.push_back(0.01);
+      surface->spacing_m.push_back(0.1);
+    }
+  }
+  EXPECT_EQ(seen_through_share(beyond, target_of(along), Pose{}), 0);
 }
 
 }  // namespace
