@@ -12,6 +12,9 @@ namespace {
 const Eigen::Vector4d kWander(0.003, 0.003, 0.01, 0.0005);
 constexpr double kWanderLength_m = 100;
 constexpr double kWanderTime_s = 100;
+// A turn that is smaller than so many deviations may be noise: to learn from it would take the
+// noise of a heading that drives straight on for turns of which nothing came.
+constexpr double kTrueTurn = 4;
 // 99.9 % of chi2 with two degrees of freedom: a wheel that slipped, which says nothing of the rest.
 constexpr double kGate2 = 13.8;
 
@@ -63,7 +66,9 @@ void OdometryCalibration::learn(const Pose& step, double duration_s, const Eigen
   Eigen::Vector4d wander = kWander.cwiseAbs2() * share;
   wander[3] = kWander[3] * kWander[3] * std::min(1.0, duration_s / kWanderTime_s);
   covariance_.diagonal() += wander;
-  const Eigen::Matrix<double, 2, 4> H = jacobian(step, duration_s);
+  Eigen::Matrix<double, 2, 4> H = jacobian(step, duration_s);
+  // The noise of the odometry's own turn is in `error` too, with the other sign.
+  if (step.yaw_rad() * step.yaw_rad() < kTrueTurn * kTrueTurn * covariance(1, 1)) H(1, 2) = 0;
   const Eigen::Matrix2d innovation = H * covariance_ * H.transpose() + covariance;
   const Eigen::Matrix2d inverse = innovation.inverse();
   if (!inverse.allFinite() || error.dot(inverse * error) > kGate2) return;

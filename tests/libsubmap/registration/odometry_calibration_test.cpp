@@ -54,6 +54,20 @@ TEST(OdometryCalibration, LearnsLengthTurnPerMetreAndTurnPerTurn) {
   EXPECT_NEAR(calibration.corrected(Pose::planar(0, 0, 1 / 1.03), 0.5).yaw_rad(), 1, 3e-3);
 }
 
+TEST(OdometryCalibration, NoiseOfTheHeadingTeachesNothingOfTurns) {
+  // Straight on, with a heading that jitters by 0.01 rad: to take the jitter for turns would leave
+  // a part of the next true one.
+  OdometryCalibration calibration;
+  for (int k = 0; k < 1000; ++k) {
+    const Pose odometry = Pose::planar(0.5, 0, k % 2 == 0 ? 0.01 : -0.01);
+    const Vector6d error =
+        graph::boxminus(Pose::planar(0.5, 0, 0), calibration.corrected(odometry, 0.5));
+    calibration.learn(odometry, 0.5, {error[0], error[5]},
+                      Eigen::Vector2d(1e-4, 1e-4).asDiagonal());
+  }
+  EXPECT_NEAR(calibration.corrected(Pose::planar(0, 0, 1), 1).yaw_rad(), 1, 0.02);
+}
+
 TEST(OdometryCalibration, LearnsAGyroThatTurnsAtRest) {
   const OdometryCalibration calibration = taught({{Pose::planar(0, 0, 0.004), Pose{}}}, 1);
   EXPECT_NEAR(calibration.corrected(Pose::planar(0, 0, 0.004), 1).yaw_rad(), 0, 3e-4);
