@@ -23,6 +23,11 @@ constexpr double kGate = 3.41;
 /// Of one visit only places this far apart are searched: the map of one reaches to the next.
 constexpr double kVisitSpacingM = 8.0;
 constexpr size_t kMostMapsPerQuery = 6;
+/// A map shows what a map of an earlier visit shows if it stands this close to it, looks the same
+/// way and is tied to it; so many of the nearest are asked for that.
+constexpr double kSameMapM = kMapSpacingM / 2;
+constexpr double kSameMapRad = 0.5;
+constexpr size_t kMostSameMaps = 4;
 /// Candidates whose covariance is asked for, per query; the nearest by a bound of it.
 constexpr size_t kMostRatedPerQuery = 24;
 constexpr double kUnknownSigmaM = 1e3;
@@ -64,6 +69,34 @@ std::vector<Place> places(const LoopProblem& problem, std::span<const double> pa
   return found;
 }
 
+/// Whether a map shows what one of some earlier maps shows.
+bool is_repeated(const LoopProblem& problem, std::span<const Place> earlier, const Place& map) {
+  std::vector<std::pair<double, int>> near;
+  for (const Place& other : earlier) {
+    const double distance_m = (other.t_world - map.t_world).norm();
+    if (distance_m > kSameMapM) continue;
+    const Pose T =
+        graph::relative_pose(problem.T_world_keyframe[static_cast<size_t>(other.keyframe)],
+                             problem.T_world_keyframe[static_cast<size_t>(map.keyframe)]);
+    if (std::abs(T.yaw_rad()) < kSameMapRad) near.emplace_back(distance_m, other.keyframe);
+  }
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), kMostSameMaps));
+  return std::any_of(near.begin(), near.end(), [&](const auto& other) {
+    return problem.already_tied(other.second, map.keyframe);
+  });
+}
+
+/// Maps that show something else: a robot that goes its rounds needs no map of each, and there are
+/// no more once its rounds are tied to each other.
+std::vector<Place> without_repetitions(const LoopProblem& problem, std::vector<Place> maps) {
+  if (!problem.already_tied) return maps;
+  std::vector<Place> kept;
+  for (const Place& map : maps)
+    if (!is_repeated(problem, kept, map)) kept.push_back(map);
+  return kept;
+}
+
 /// The maps before a query that it may reach, the nearest ones. The covariance of a pair is at most
 /// that of two independent positions.
 std::vector<int> nearest_maps(const LoopProblem& problem, std::span<const Place> maps,
@@ -73,13 +106,14 @@ std::vector<int> nearest_maps(const LoopProblem& problem, std::span<const Place>
     if (map.limit >= query.limit) break;
     const double distance_m = (map.t_world - query.t_world).norm();
     if (distance_m > kMeetM + kGate * (map.sigma_m + query.sigma_m)) continue;
-    if (problem.already_tied && problem.already_tied(map.keyframe, query.keyframe)) continue;
     near.emplace_back(distance_m, map.keyframe);
   }
   std::sort(near.begin(), near.end());
   std::vector<int> nearest;
-  for (const auto& [distance_m, a] : near)
-    if (nearest.size() < kMostRatedPerQuery) nearest.push_back(a);
+  for (const auto& [distance_m, a] : near) {
+    if (nearest.size() == kMostRatedPerQuery) break;
+    if (!problem.already_tied || !problem.already_tied(a, query.keyframe)) nearest.push_back(a);
+  }
   return nearest;
 }
 
@@ -132,9 +166,10 @@ std::vector<LoopProposal> choose(std::vector<Rated> rated, std::span<const doubl
 
 std::vector<LoopProposal> propose_loops(const LoopProblem& problem, std::span<const double> path_m,
                                         int threads) {
-  const std::vector<Place> maps = places(
-      problem, path_m, kMapSpacingM,
-      [&](int k) { return patch_range(path_m, k, kMapReachM).second; }, threads);
+  const std::vector<Place> maps = without_repetitions(
+      problem, places(
+                   problem, path_m, kMapSpacingM,
+                   [&](int k) { return patch_range(path_m, k, kMapReachM).second; }, threads));
   const std::vector<Place> queries = places(
       problem, path_m, kQuerySpacingM,
       [&](int k) { return patch_range(path_m, k, kQueryReachM).first; }, threads);

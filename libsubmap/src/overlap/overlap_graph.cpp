@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <span>
 #include <string>
 
 #include "common_share.hpp"
@@ -13,6 +14,7 @@
 #include "keyframe_space.hpp"
 #include "match_landmarks.hpp"
 #include "packed_covariance.hpp"
+#include "references.hpp"
 #include "sensor_index.hpp"
 
 namespace hmt::submap {
@@ -23,9 +25,9 @@ size_t at(int i) {
 }
 
 // Two blocks of consecutive keyframes are held at a time, so that memory does not grow with the
-// points of the log: some 100 MB for the points and 100 MB for the pairs by these limits. Larger
-// blocks would prepare keyframes less often.
-constexpr int kBlockKeyframes = 1024;
+// points of the log: some 50 MB for the points and 25 MB for the pairs by these limits. Larger
+// blocks would prepare keyframes less often, but compare more with each other that show the same.
+constexpr int kBlockKeyframes = 512;
 constexpr double kBlockPoints = 1e6;
 
 struct Block {
@@ -54,27 +56,24 @@ class OverlapGraphBuilder {
         covariance_(covariance),
         options_(options),
         run_(run),
-        arena_(std::max(1, run.threads)) {}
+        arena_(std::max(1, run.threads)),
+        references_(source.num_keyframes()) {}
 
   graph::WeightedGraph build() {
     find_sensors();
     index_sensors();
     std::vector<graph::Arc> arcs;
     const std::vector<Block> all = blocks();
-    for (const Block& a : all) {
-      const BlockSpace space_a = prepare(a);
-      const std::vector<KeyframeBounds> bounds_a = bounds(a);
-      for (const Block& b : all) {
-        if (b.begin < a.begin || !meet(bounds_a, b)) continue;
-        std::vector<Pair> pairs = candidates(a, bounds_a, b);
-        if (pairs.empty()) continue;
-        parallel(static_cast<int>(pairs.size()), [&](int p) {
-          Pair& pair = pairs[at(p)];
-          pair.covariance = PackedCovariance(covariance_(pair.a, pair.b));
-        });
-        add_arcs(pairs, a, space_a, b, b.begin == a.begin ? space_a : prepare(b), arcs);
+    for (const Block& b : all) {
+      const size_t before = arcs.size();
+      const BlockSpace space_b = prepare(b, b);
+      const std::vector<KeyframeBounds> bounds_b = bounds(b, b);
+      for (const Block& a : all) {
+        if (a.begin > b.begin) break;
+        if (is_compared(a, b) && meet(bounds_b, a)) add_arcs(a, b, bounds_b, space_b, arcs);
       }
-      run_.report({"overlap", static_cast<double>(a.end), static_cast<double>(num_keyframes())});
+      references_.thin(b.begin, b.end, std::span(arcs).subspan(before));
+      run_.report({"overlap", static_cast<double>(b.end), static_cast<double>(num_keyframes())});
     }
     return {num_keyframes(), arcs};
   }
@@ -123,9 +122,23 @@ class OverlapGraphBuilder {
     for (auto& of_sensor : entries) index_.emplace_back(std::move(of_sensor), options_);
   }
 
-  BlockSpace prepare(const Block& block) {
+  /// Whether a keyframe is compared with any of a later block, or of its own.
+  bool is_compared(int keyframe, const Block& later) const {
+    return references_.is_compared(keyframe, std::max(keyframe, later.begin));
+  }
+  bool is_compared(const Block& block, const Block& later) const {
+    for (int i = block.begin; i < block.end; ++i)
+      if (is_compared(i, later)) return true;
+    return false;
+  }
+
+  /// What the keyframes of a block saw that are compared with a later one; the others stay empty.
+  BlockSpace prepare(const Block& block, const Block& later) {
     BlockSpace space(at(block.size()));
-    parallel(block.size(), [&](int i) { space[at(i)] = source_.space(block.begin + i, sensors_); });
+    parallel(block.size(), [&](int i) {
+      if (is_compared(block.begin + i, later))
+        space[at(i)] = source_.space(block.begin + i, sensors_);
+    });
     return space;
   }
 
@@ -142,12 +155,14 @@ class OverlapGraphBuilder {
 
   bool is_arc(double overlap) const { return overlap > 0 && overlap >= options_.min_overlap; }
 
-  /// Upper bounds of the matches of each keyframe of the block with all others.
-  std::vector<KeyframeBounds> bounds(const Block& block) {
-    std::vector<KeyframeBounds> bounds(at(block.size()));
+  /// Upper bounds of the matches with all others of each keyframe of the block that is compared
+  /// with a later one.
+  std::vector<KeyframeBounds> bounds(const Block& block, const Block& later) {
+    std::vector<KeyframeBounds> bounds(at(block.size()), KeyframeBounds(index_.size()));
     parallel(block.size(), [&](int i) {
-      for (const SensorIndex& index : index_)
-        bounds[at(i)].push_back(index.bounds(block.begin + i));
+      if (!is_compared(block.begin + i, later)) return;
+      for (size_t s = 0; s < index_.size(); ++s)
+        bounds[at(i)][s] = index_[s].bounds(block.begin + i);
     });
     return bounds;
   }
@@ -183,12 +198,14 @@ class OverlapGraphBuilder {
   }
 
   /// Pairs a < b whose overlap can reach the least one that counts, ordered by (a, b).
-  std::vector<Pair> candidates(const Block& a, const std::vector<KeyframeBounds>& bounds_a,
-                               const Block& b) {
-    const std::vector<int> of_a = table(bounds_a, b), of_b = table(bounds(b), a);
+  std::vector<Pair> candidates(const Block& a, const Block& b,
+                               const std::vector<KeyframeBounds>& bounds_b) {
+    const std::vector<int> of_a = table(bounds(a, b), b), of_b = table(bounds_b, a);
     std::vector<Pair> pairs;
     for (int i = a.begin; i < a.end; ++i) {
+      if (!is_compared(i, b)) continue;
       for (int j = std::max(b.begin, i + 1); j < b.end; ++j) {
+        if (!references_.is_compared(i, j)) break;
         const double bound = mean_overlap(i, j, [&](size_t s) {
           const size_t row_a = (at(i - a.begin) * sensors_.size() + s) * at(b.size());
           const size_t row_b = (at(j - b.begin) * sensors_.size() + s) * at(a.size());
@@ -198,6 +215,18 @@ class OverlapGraphBuilder {
       }
     }
     return pairs;
+  }
+
+  /// The arcs between two blocks, or within one.
+  void add_arcs(const Block& a, const Block& b, const std::vector<KeyframeBounds>& bounds_b,
+                const BlockSpace& space_b, std::vector<graph::Arc>& arcs) {
+    std::vector<Pair> pairs = candidates(a, b, bounds_b);
+    if (pairs.empty()) return;
+    parallel(static_cast<int>(pairs.size()), [&](int p) {
+      Pair& pair = pairs[at(p)];
+      pair.covariance = PackedCovariance(covariance_(pair.a, pair.b));
+    });
+    add_arcs(pairs, a, a.begin == b.begin ? space_b : prepare(a, b), b, space_b, arcs);
   }
 
   void add_arcs(const std::vector<Pair>& pairs, const Block& a, const BlockSpace& space_a,
@@ -270,6 +299,7 @@ class OverlapGraphBuilder {
   const OverlapOptions& options_;
   const Run& run_;
   tbb::task_arena arena_;
+  References references_;
   tbb::enumerable_thread_specific<std::vector<NearestGrid>> grids_;  ///< one a sensor
   std::vector<SensorUse> sensors_;                                   ///< sorted
   std::vector<SensorIndex> index_;                                   ///< one a sensor

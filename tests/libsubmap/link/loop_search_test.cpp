@@ -201,5 +201,28 @@ TEST(SearchLoops, ClosesASecondRoundOfCloudsInSpace) {
   }
 }
 
+TEST(SearchLoops, MakesNoMapOfARoundThatIsTiedToAnEarlierOne) {
+  std::vector<Eigen::Vector2d> corners = kTwiceAround;
+  corners.insert(corners.end(), kTwiceAround.begin(), kTwiceAround.begin() + 4);
+  const Drive drive = test::drive(ring(), corners, {}, {});
+  const ObservationVector store(drive.observations);
+  LoopProblem problem;
+  problem.keyframes = drive.keyframes;
+  problem.T_world_keyframe = drive.estimate;
+  problem.submap = drive.submap;
+  // One round is 64 m: the first two are tied, the third is not.
+  const auto round = [&](int k) {
+    return static_cast<int>(drive.path_m[static_cast<size_t>(k)] / 64);
+  };
+  problem.already_tied = [&](int a, int b) { return round(a) < 2 && round(b) < 2; };
+  problem.covariance = growing(drive, 0.01, 0.001);
+  problem.observations = &store;
+  const auto candidates = search_loops(problem, submap::Run{});
+  EXPECT_GT(count(candidates, LoopVerdict::accepted), 10);
+  // The map of the end of the first round reaches 8 m into the second.
+  for (const LoopCandidate& c : candidates)
+    EXPECT_TRUE(drive.path_m[static_cast<size_t>(c.a)] < 64 + 8.5 || round(c.a) == 2) << c.a;
+}
+
 }  // namespace
 }  // namespace hmt::submap

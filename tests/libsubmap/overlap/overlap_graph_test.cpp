@@ -221,6 +221,25 @@ TEST(OverlapGraph, HasNoArcWhereTheRelativePoseIsNotKnown) {
   EXPECT_EQ(tour.overlap(vague).num_arcs(), 0);
 }
 
+TEST(OverlapGraph, GrowsWithTheLogWhereTheRobotGoesItsRounds) {
+  // Rounds of 128 keyframes along a wall, each of which sees 4 m of it.
+  const auto rounds = [](int count) {
+    Tour tour = along_a_wall(128, 0.3);
+    for (int round = 1; round < count; ++round)
+      for (int k = 0; k < 128; ++k)
+        tour.add(tour.T_world_keyframe[static_cast<size_t>(k)],
+                 tour.observations[static_cast<size_t>(k)].readings);
+    return tour.overlap(certain, 2);
+  };
+  const WeightedGraph four = rounds(4), eight = rounds(8), twelve = rounds(12);
+  EXPECT_GT(four.num_arcs(), 4 * 128 * 40);
+  EXPECT_EQ(twelve.num_arcs() - eight.num_arcs(), eight.num_arcs() - four.num_arcs());
+  // The last round overlaps the first as it would alone, and not the one before.
+  EXPECT_EQ(twelve.weight(60, 11 * 128 + 61), four.weight(60, 3 * 128 + 61));
+  EXPECT_GT(twelve.weight(60, 11 * 128 + 61), 0.5);
+  EXPECT_EQ(twelve.weight(7 * 128 + 60, 11 * 128 + 61), 0.0);
+}
+
 TEST(OverlapGraph, AsksOnceForEachPairThatCanMeetWithTheSmallerIdFirst) {
   const Tour tour = along_a_wall(60, 2.0);
   std::set<std::pair<int, int>> asked;

@@ -80,9 +80,10 @@ struct LoopProblem {
 /// (branch and bound over the local map around `a`), then confirmed by registration, by free space
 /// and by the margin over the second-best match. The map is a stretch of the track around one
 /// keyframe, the query a shorter one; pairs within them, and pairs whose relative pose is known to
-/// a decimetre, are left to plain registration. Verdicts that need all loops together
-/// (inconsistent, outlier) are left to the caller. Ordered by (a, b); same result for any number of
-/// threads. In space the upright surfaces, seen from above, are matched in the plane and
+/// a decimetre, are left to plain registration. A place that stands within 2 m of an earlier map,
+/// looks the same way and is tied to it makes no map of its own. Verdicts that need all loops
+/// together (inconsistent, outlier) are left to the caller. Ordered by (a, b); same result for any
+/// number of threads. In space the upright surfaces, seen from above, are matched in the plane and
 /// registration finds height and tilt; free space is not looked at, because clouds look over what
 /// is in the way.
 std::vector<LoopCandidate> search_loops(const LoopProblem& problem, const Run& run);

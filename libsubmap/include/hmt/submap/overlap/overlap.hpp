@@ -53,6 +53,9 @@ double observation_overlap(const Observation& a, const Observation& b, const Pos
 
 /// Omega: the overlap of all pairs of keyframes whose sensed regions meet at the given poses and
 /// whose relative pose is known well enough to tell. Never looks at the points of all n^2 pairs.
+/// Where a place was visited again and again only pairs of one visit and pairs with the first few
+/// visits count: a keyframe that 16 such references of other visits overlap by half or more is none
+/// for later ones. So arcs grow with the keyframes, not with their square.
 /// Weights equal observation_overlap up to the rounding of points and covariances to float; a
 /// sensor whose readings have more than 8192 points on average is compared by voxels throughout,
 /// which are laid out in the world, so its weights differ by some hundredths with the layout. Same
