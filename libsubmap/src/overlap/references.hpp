@@ -14,9 +14,8 @@ namespace hmt::submap {
 /// place tells hardly more of the eleventh than the first few do. So a keyframe is a reference
 /// unless earlier ones of other visits show well enough what it shows, and a pair counts if its
 /// earlier keyframe is a reference or both belong to one visit. References become no more once
-/// every place has some: arcs grow with the keyframes, as those of anchor graphs [Liu 2010].
-/// Whatever is eliminated first, later visits are tied to references alone, so that the factor of
-/// the pose graph grows in proportion, too.
+/// every place has some: arcs grow with the keyframes, as those of anchor graphs [Liu 2010], and so
+/// do registrations.
 class References {
  public:
   /// All keyframes are references at first.
