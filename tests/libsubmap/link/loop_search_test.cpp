@@ -12,7 +12,6 @@
 namespace hmt::submap {
 namespace {
 
-using test::Drift;
 using test::Drive;
 using test::Laser;
 using test::Wall;
