@@ -20,17 +20,15 @@ constexpr double kFarthestPose = 1e8;   // metres
 constexpr double kFarthestRange = 1e4;  // metres
 constexpr double kLargestAngle = 1e3;   // radians
 
-int64_t take_count(std::string_view& fields, const char* name) {
-  const std::string_view field = take_field(fields);
-  const auto value = to_count(field);
-  if (!value || *value > kMaxBeams)
-    throw std::invalid_argument(std::string(name) + " is not a count");
-  return *value;
+int64_t take_beam_count(std::string_view& fields, const char* name) {
+  const int64_t count = take_count(fields, name);
+  if (count > kMaxBeams) throw std::invalid_argument(std::string(name) + " is not a count");
+  return count;
 }
 
 std::vector<double> take_numbers(std::string_view& fields, const char* name) {
   // A line has at least two characters a number, so a lying count reserves no more than the line.
-  const int64_t count = take_count(fields, "number of readings");
+  const int64_t count = take_beam_count(fields, "number of readings");
   std::vector<double> values;
   values.reserve(std::min(static_cast<size_t>(count), fields.size() / 2 + 1));
   for (int64_t i = 0; i < count; ++i) values.push_back(take_number(fields, name));

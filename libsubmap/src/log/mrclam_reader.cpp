@@ -42,11 +42,6 @@ int64_t bytes_of(const fs::path& path) {
   return static_cast<int64_t>(fs::file_size(path));
 }
 
-int64_t take_count(std::string_view& fields, const char* name) {
-  if (const auto value = to_count(take_field(fields))) return *value;
-  throw std::invalid_argument(std::string(name) + " is not a count");
-}
-
 /// Motion at constant velocities.
 Pose arc(double forward_m_s, double turn_rad_s, double duration_s) {
   const double yaw_rad = turn_rad_s * duration_s;

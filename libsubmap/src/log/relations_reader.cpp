@@ -16,11 +16,6 @@ namespace {
 constexpr double kLostMotion_m = 1;
 constexpr double kLostMotion_rad = 0.5;
 
-int64_t take_count(std::string_view& fields, const char* name) {
-  if (const auto value = to_count(take_field(fields))) return *value;
-  throw std::invalid_argument(std::string(name) + " is not a count");
-}
-
 /// Symmetric positive definite matrix from its upper triangle, row by row.
 template <int kSize>
 Eigen::Matrix<double, kSize, kSize> take_covariance(std::string_view& fields) {

@@ -56,6 +56,11 @@ double take_number(std::string_view& fields, const char* name) {
   throw std::invalid_argument(std::string(name) + " is not a number");
 }
 
+int64_t take_count(std::string_view& fields, const char* name) {
+  if (const auto value = to_count(take_field(fields))) return *value;
+  throw std::invalid_argument(std::string(name) + " is not a count");
+}
+
 double take_finite(std::string_view& fields, const char* name) {
   const double value = take_number(fields, name);
   if (!std::isfinite(value)) throw std::invalid_argument(std::string(name) + " is not finite");

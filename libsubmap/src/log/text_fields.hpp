@@ -21,6 +21,8 @@ std::string_view take_field(std::string_view& fields);
 double take_number(std::string_view& fields, const char* name);
 /// The same for a number that must be finite.
 double take_finite(std::string_view& fields, const char* name);
+/// The same for an integer >= 0.
+int64_t take_count(std::string_view& fields, const char* name);
 
 /// The line without a `#` comment and leading blanks.
 std::string_view without_comment(std::string_view line);
