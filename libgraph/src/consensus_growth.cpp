@@ -13,6 +13,7 @@
 #include "backbone.hpp"
 #include "hmt/graph/chi_squared.hpp"
 #include "hmt/graph/pose_covariance.hpp"
+#include "noise_scale.hpp"
 #include "piece_cycles.hpp"
 #include "pose_volume.hpp"
 #include "spanning_tree.hpp"
@@ -41,8 +42,6 @@ constexpr double kLeastScale = 1e-6;
 constexpr double kBulkProbability = 0.25;
 /// Where the errors of the accepted ones do, which may have longer tails than a normal deviate.
 constexpr double kTailProbability = 0.99;
-/// Ratio of chi2 that sets the false edges apart from the tail of the true ones.
-constexpr double kClearGap = 2;
 
 PoseGraph subgraph(const PoseGraph& graph, const std::vector<bool>& use, std::vector<Pose> poses) {
   PoseGraph part;
@@ -66,27 +65,6 @@ double log_volume_of_map(const PoseGraph& graph, int translation_size) {
   const double pi = std::numbers::pi;
   return translation_size * std::log(std::max(box.diagonal().norm(), 1e-3)) +
          std::log(translation_size == 2 ? 2 * pi : 8 * pi * pi);
-}
-
-/// The `share` quantile of the values as a multiple of that of chi2; 0 for no values.
-double scale_at(std::vector<double> chi2, double share, int size) {
-  if (chi2.empty()) return 0;
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(chi2.size()));
-  std::nth_element(chi2.begin(), chi2.begin() + rank, chi2.end());
-  return chi2[static_cast<size_t>(rank)] / chi_squared_quantile(size, share);
-}
-
-/// The value below the widest gap, in logarithms, of the values within [low, high]; `high` where no
-/// gap is clear.
-double below_widest_gap(std::vector<double> values, double low, double high) {
-  std::erase_if(values, [&](double value) { return value <= low || value >= high; });
-  values.push_back(low);
-  values.push_back(high);
-  std::sort(values.begin(), values.end());
-  size_t widest = 0;
-  for (size_t k = 0; k + 1 < values.size(); ++k)
-    if (values[k + 1] / values[k] > values[widest + 1] / values[widest]) widest = k;
-  return values[widest + 1] > kClearGap * values[widest] ? values[widest] : high;
 }
 
 /// How an edge that is not in the set agrees with the solution over the set.
