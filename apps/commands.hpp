@@ -8,6 +8,7 @@
 namespace hmt::apps {
 
 Action add_loops(CLI::App& command);
+Action add_route(CLI::App& command);
 Action add_map(CLI::App& command);
 Action add_export(CLI::App& command);
 Action add_check(CLI::App& command);

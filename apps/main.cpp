@@ -24,6 +24,7 @@ const std::vector<Command> kCommands = {
     {"check", "Examine logs: clocks, gaps, geometry, odometry, damage", add_check},
     {"info", "What is in a log or a map", add_info},
     {"evaluate", "Errors of a map or trajectory against truth; how crisp a map is", add_evaluate},
+    {"route", "The shortest way between two places, and how well it is known", add_route},
     {"loops", "List the loop closures of a map, or overrule them", add_loops},
     {"partition", "Cut an overlap graph into groups by recursive spectral min-Ncut", add_partition},
     {"optimize", "Optimize a pose graph in g2o format", add_optimize},

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -47,10 +48,38 @@ nlohmann::ordered_json summary(const submap::HybridMap& map) {
           {"chi2_flat", map.division.chi2_flat}};
 }
 
-std::string as_text(const nlohmann::ordered_json& object, const std::filesystem::path& map) {
+/// "round2.loops" is one of the stages "loops", "octomap7" one of "octomap".
+std::string kind_of_stage(const std::string& stage) {
+  std::string kind = stage.substr(stage.find('.') == std::string::npos ? 0 : stage.find('.') + 1);
+  kind.erase(kind.find_last_not_of("0123456789") + 1);
+  return kind;
+}
+
+/// Seconds of each kind of stage, all rounds together, in the order in which they first ran.
+std::vector<submap::StageTime> sum_by_kind(const std::vector<submap::StageTime>& times) {
+  std::vector<submap::StageTime> sums;
+  for (const submap::StageTime& time : times) {
+    const std::string kind = kind_of_stage(time.stage);
+    const auto same =
+        std::find_if(sums.begin(), sums.end(), [&](const auto& sum) { return sum.stage == kind; });
+    if (same == sums.end())
+      sums.push_back({kind, time.seconds});
+    else
+      same->seconds += time.seconds;
+  }
+  return sums;
+}
+
+std::string as_text(const nlohmann::ordered_json& object,
+                    const std::vector<submap::StageTime>& times, const submap::HybridMap& built,
+                    const std::filesystem::path& map) {
   std::string text = map.string() + "\n";
   for (const auto& [name, value] : object.items())
     if (!value.is_object()) text += fmt::format("  {:<18} {}\n", name, value.dump());
+  const auto observations = static_cast<double>(built.track.observations.size());
+  for (const submap::StageTime& time : sum_by_kind(times))
+    text += fmt::format("  {:<18} {:.2f} s, {:.0f} observations/s\n", "stage " + time.stage,
+                        time.seconds, observations / std::max(time.seconds, 1e-3));
   return text + "next: hmtmap export " + map.string() + " -o " + map.stem().string() + "/\n";
 }
 
@@ -79,7 +108,7 @@ int map_log(const MapArguments& arguments, const Globals& globals) {
   object["peak_rss_mb"] = static_cast<double>(usage.ru_maxrss) / 1024;
   object["stages"] = nlohmann::ordered_json::object();
   for (const submap::StageTime& time : result.times) object["stages"][time.stage] = time.seconds;
-  print_result(globals, object, as_text(object, arguments.map));
+  print_result(globals, object, as_text(object, result.times, map, arguments.map));
   return report_losses(map.track.log);
 }
 

@@ -98,6 +98,21 @@ TEST_F(LoopsCommand, OneSubmapIsOptimizedAndNoOtherTouched) {
   EXPECT_EQ(run_hmtmap("optimize " + path("one.hmt") + " --submap 9999").code, 1);
 }
 
+TEST_F(LoopsCommand, ARouteLeadsBackAlongTheCorridor) {
+  const CommandResult result =
+      run_hmtmap("--json route " + path("map.hmt") + " --from 0,0 --to 30,0");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = result.json();
+  EXPECT_LT(json.at("start_distance_m"), 0.5);
+  EXPECT_LT(json.at("goal_distance_m"), 1);
+  EXPECT_NEAR(json.at("length_m"), 30, 2);
+  EXPECT_EQ(json.at("steps").front().at("sigma_position_m"), 0);
+  EXPECT_GT(json.at("steps").back().at("sigma_position_m"), 1e-3);
+  EXPECT_LT(json.at("steps").back().at("sigma_position_m"), 0.5);
+  EXPECT_EQ(run_hmtmap("route " + path("map.hmt") + " --from 0,nan --to 30,0").code, 1);
+  EXPECT_EQ(run_hmtmap("route " + path("map.hmt") + " --from 0 --to 30,0").code, 2);
+}
+
 TEST_F(LoopsCommand, ByMapSaysHowThickTheWallsAre) {
   const CommandResult result = run_hmtmap("--json evaluate " + path("map.hmt") +
                                           " --map-quality --reference " + path("log.truth.tum"));
