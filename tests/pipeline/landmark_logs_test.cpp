@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "hmt/submap/export/landmarks_file.hpp"
 #include "hmt/submap/export/trajectory.hpp"
 #include "hmt/submap/pipeline.hpp"
@@ -41,6 +43,24 @@ TEST(LandmarkMap, OfASimulatedParkIsTrue) {
           map.T_world_submap[static_cast<size_t>(submap.id)] * l.position;
       EXPECT_LT((p_world - map.landmarks[static_cast<size_t>(l.landmark)].position).norm(), 0.5);
     }
+}
+
+TEST(LandmarkMap, NeedsNoNamesWhereTreesStandApart) {
+  const test::TemporaryFolder folder;
+  const Park park(folder.path() / "park.txt", false);
+  const HybridMap map = build_map(folder.path() / "park.txt", folder.path() / "park.hmt", {},
+                                  MapFile::Existing::resume, {})
+                            .file.load_map();
+  // Each tree is one landmark, in both rounds.
+  EXPECT_EQ(map.landmarks.size(), park.trees.size());
+  const Pose T_true_world = park.T_world_robot.front() * world_trajectory(map).front().inverse();
+  for (const PlacedLandmark& landmark : map.landmarks) {
+    EXPECT_EQ(map.landmark_names[static_cast<size_t>(landmark.landmark)], kUnknownLandmark);
+    double nearest_m = 1e9;
+    for (const auto& [name, p] : park.trees)
+      nearest_m = std::min(nearest_m, ((T_true_world * landmark.position).head<2>() - p).norm());
+    EXPECT_LT(nearest_m, 0.5);
+  }
 }
 
 TEST(LandmarkMap, IsTheSameOnOneAndOnTwoThreads) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "hmt/graph/pose.hpp"
@@ -19,7 +20,8 @@ struct Park {
   std::map<int64_t, Eigen::Vector2d> trees;
   std::vector<graph::Pose> T_world_robot;
 
-  explicit Park(const std::filesystem::path& log) {
+  /// Writes the log; without names the sensor does not tell which tree it sees.
+  explicit Park(const std::filesystem::path& log, bool with_names = true) {
     std::mt19937 generator(1);
     std::normal_distribution<double> normal;
     for (int k = 0; k < 40; ++k) {
@@ -45,8 +47,9 @@ struct Park {
         const Eigen::Vector3d seen =
             T_world_robot.back().inverse() * Eigen::Vector3d(p.x(), p.y(), 0);
         if (step > 0 && seen.norm() < 9 && seen.x() > 0)
-          out << "LANDMARK " << step << " " << name << " " << seen.x() + 0.1 * normal(generator)
-              << " " << seen.y() + 0.1 * normal(generator) << " 0.01 0 0.01\n";
+          out << "LANDMARK " << step << " " << (with_names ? std::to_string(name) : "-") << " "
+              << seen.x() + 0.1 * normal(generator) << " " << seen.y() + 0.1 * normal(generator)
+              << " 0.01 0 0.01\n";
       }
     }
   }

@@ -32,6 +32,16 @@ void expect_end(std::string_view& fields) {
   if (!take_field(fields).empty()) throw std::invalid_argument("too many fields");
 }
 
+/// The number of a landmark, or "-" where the sensor could not tell which one it saw.
+int64_t take_landmark(std::string_view& fields) {
+  std::string_view rest = fields;
+  if (take_field(rest) == "-") {
+    fields = rest;
+    return kUnknownLandmark;
+  }
+  return take_count(fields, "number of the landmark");
+}
+
 Matrix6d lost_motion() {
   Vector6d deviation = Vector6d::Zero();
   deviation[0] = deviation[1] = kLostMotion_m;
@@ -89,7 +99,7 @@ void RelationsReader::read_odometry(std::string_view fields) {
 void RelationsReader::read_landmark(std::string_view fields) {
   const int64_t pose = take_count(fields, "number of the pose");
   Landmark landmark;
-  landmark.id = take_count(fields, "number of the landmark");
+  landmark.id = take_landmark(fields);
   landmark.position_sensor.x() = take_finite(fields, "x");
   landmark.position_sensor.y() = take_finite(fields, "y");
   landmark.covariance_sensor.topLeftCorner<2, 2>() = take_covariance<2>(fields);

@@ -7,11 +7,13 @@
 namespace hmt::submap {
 
 /// Reads a planar log of relative poses and landmarks as text (Victoria Park as GTSAM has it):
-///   ODOMETRY from to dx dy dyaw xx xy xt yy yt tt    motion and the upper triangle of its
-///   covariance LANDMARK pose landmark x y xx xy yy              position in the robot frame,
-///   covariance
-/// Poses and landmarks share one numbering. Every pose becomes an observation. The format has no
-/// stamps: the number of the pose stands for the seconds.
+///
+///   ODOMETRY from to dx dy dyaw xx xy xt yy yt tt    motion, upper triangle of its covariance
+///   LANDMARK pose landmark x y xx xy yy              position in the robot frame, the same
+///
+/// Poses and landmarks share one numbering; a landmark is "-" where the sensor could not tell which
+/// one it saw. Every pose becomes an observation. The format has no stamps: the number of the pose
+/// stands for the seconds.
 class RelationsReader : public LogReader {
  public:
   /// Throws InputError for a file without a usable record.

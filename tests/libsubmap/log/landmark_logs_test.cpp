@@ -75,6 +75,17 @@ TEST_F(LandmarkLogs, RelationsGiveEveryPoseWithItsMotionAndLandmarks) {
   EXPECT_TRUE(report_.losses.empty());
 }
 
+TEST_F(LandmarkLogs, RelationsNeedNotSayWhichLandmarkItWas) {
+  const auto log =
+      read(text("ODOMETRY 0 1 1 0 0 0.04 0 0 0.04 0 0.01\n"
+                "LANDMARK 1 - 2 0.5 0.4 0 0.3\n"
+                "LANDMARK 1 -1 2 0.5 0.4 0 0.3\n"));
+  ASSERT_EQ(log.size(), 2u);
+  ASSERT_EQ(log[1].landmark_readings[0].landmarks.size(), 1u);
+  EXPECT_EQ(log[1].landmark_readings[0].landmarks[0].id, kUnknownLandmark);
+  EXPECT_EQ(report_.losses.size(), 1u);
+}
+
 TEST_F(LandmarkLogs, RelationsLeaveOutWhatIsDamagedAndSayWhere) {
   const auto log =
       read(text("ODOMETRY 0 1 1 0 0 0.04 0 0 0.04 0 0.01\n"
