@@ -64,8 +64,8 @@ class Search {
   }
 
   // The best offset of every block of level 1 that may hold a rival of the best one, best first.
-  std::vector<Block> run() {
-    best_ = 0;
+  std::vector<Block> run(double least_score) {
+    best_ = static_cast<int>(least_score * 255.0 * static_cast<double>(points_.size()));
     found_.clear();
     std::vector<Block> roots;
     const int side = LikelihoodGrid::side(kTop);
@@ -160,7 +160,7 @@ class Search {
   double heading_step_rad_;
   int headings_;
   std::vector<std::vector<Eigen::Array2i>> cells_;  // one entry a heading
-  int best_ = 0;                                    // score so far
+  int best_ = 0;                                    // score so far, or what is asked for
   std::vector<Block> found_;
 };
 
@@ -174,12 +174,13 @@ bool is_distinct(const Pose& a, const Pose& b) {
 std::vector<CorrelativeMatch> correlative_search(const Surface& source,
                                                  const RegistrationTarget& target,
                                                  const Pose& T_target_source_guess,
-                                                 const CorrelativeWindow& window, int max_matches) {
+                                                 const CorrelativeWindow& window, int max_matches,
+                                                 double least_score) {
   std::vector<Eigen::Vector3d> points = sample_points(source);
   if (points.empty() || target.size() == 0) return {};
   Search search(std::move(points), target.impl(), T_target_source_guess, window);
   std::vector<CorrelativeMatch> matches;
-  for (const Block& candidate : search.run()) {
+  for (const Block& candidate : search.run(least_score)) {
     if (static_cast<int>(matches.size()) >= max_matches) break;
     const Pose pose = search.pose_of(candidate);
     const bool distinct = std::all_of(

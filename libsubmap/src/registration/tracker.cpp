@@ -5,11 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "information.hpp"
-#include "seen_through.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -34,28 +32,8 @@ Matrix6d unknown_step(Space space) {
   return diagonal_in(space, kUnknownStep_m * kUnknownStep_m, kUnknownStep_rad * kUnknownStep_rad);
 }
 
-// A registration is taken if so many of the usable points meet the local map; new sights open at
-// less than half of the view from one observation to the next.
-constexpr double kLeastInlierFraction = 0.5;
-// Clouds see farther: more of each is new.
-constexpr double kLeastCloudInlierFraction = 0.3;
-// Clouds fill the plane, so no search from above helps; surfaces stand metres apart, so a wide
-// search for corresponding points does.
-constexpr double kWideCorrespondence_m = 2.0;
-// Chi2 of three degrees of freedom beyond which a prediction is doubted (one in a thousand).
-constexpr double kDoubtful2 = 16;
-// A registration that contradicts the odometry needs more inliers: wheels slip and clocks jitter
-// with heavy tails, hence the logarithm. 0.12 more at chi2 1000, about 30 standard deviations.
-constexpr double kInliersPerDoubt = 0.03;
-constexpr int kStarts = 3;
+// Observations in a row after which the odometry is not trusted less and less any more.
 constexpr int kMostRefused = 10;
-// Far from the odometry's guess nearly all must fit, and no other place so nearly as well.
-constexpr double kLeastFarInlierFraction = 0.8;
-constexpr double kAmbiguousShare = 0.85;
-// ... and the odometry's own pose must be impossible: a view into a new room is not.
-constexpr double kImpossibleShare = 0.3;
-constexpr double kLeastWindow_m = 0.5, kLargestWindow_m = 2.0;
-constexpr double kLeastWindow_rad = 0.3, kLargestWindow_rad = 1.0;
 
 // Whether the registration told more than the prediction in every direction.
 bool observes_all(Space space, const Matrix6d& information, const Matrix6d& predicted) {
@@ -100,7 +78,8 @@ void Tracker::add(const Observation& observation, Surface surface) {
     step_covariance *= std::exp2(2 * std::min(refused_, kMostRefused));
     T_keyframe_odometry_ = T_keyframe_odometry_ * step;
     const Matrix6d covariance = compose_covariance(step, covariance_latest_, step_covariance);
-    const Prediction prediction{T_track_latest_ * step, covariance, inverse_in(space_, covariance)};
+    const Prediction prediction{T_track_latest_ * step, covariance, inverse_in(space_, covariance),
+                                step.translation.norm()};
     const Estimate found = estimate(surface, prediction);
     learn_odometry(motion, prediction, found);
     latest_step_ = relative_pose(T_track_latest_, found.T_track_robot);
@@ -153,7 +132,7 @@ void Tracker::learn_odometry(const Motion& motion, const Prediction& prediction,
   const Matrix6d noise = inverse_in(space_, found.information + kNothing * Matrix6d::Identity());
   if (motion.by_odometry && space_ == Space::se2) {
     const Eigen::Array3i plane(0, 1, 5);
-    const Vector6d free = boxminus(found.T_track_measured, prediction.T_track_robot);
+    const Vector6d free = boxminus(found.T_track_measured, prediction.T_map_robot);
     const Eigen::Matrix3d covariance = (noise + prediction.covariance)(plane, plane);
     const Eigen::Array2i along(0, 2);
     calibration_.learn(motion.odometry, motion.duration_s, free(plane)(along),
@@ -174,94 +153,24 @@ void Tracker::learn_odometry(const Motion& motion, const Prediction& prediction,
   if (!odometry_moves_) steady_.learn(motion.step, measured, Vector6d::Zero());
 }
 
-double Tracker::mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const {
-  const Vector6d innovation = boxminus(T_track_robot, prediction.T_track_robot);
-  return innovation.dot(prediction.information * innovation);
-}
-
-double Tracker::credit(const Registration& registration, const Prediction& prediction) const {
-  if (registration.termination == Registration::Termination::too_few_points) return 0;
-  const double doubt = mahalanobis2(registration.T_target_source, prediction) / kDoubtful2;
-  return registration.inlier_fraction - kInliersPerDoubt * std::log(std::max(1.0, doubt));
-}
-
 Tracker::Estimate Tracker::estimate(const Surface& surface, const Prediction& prediction) {
-  RegistrationOptions options;
-  options.space = space_;
-  options.prior = PosePrior{prediction.T_track_robot, prediction.information};
-  Registration found = register_surface(surface, map_.target(), prediction.T_track_robot, options);
-  // Without odometry the guess may be so far off that a wrong pose fits well enough.
-  const double least = space_ == Space::se2 ? kLeastInlierFraction : kLeastCloudInlierFraction;
-  if (!odometry_moves_ || credit(found, prediction) < least ||
-      mahalanobis2(found.T_target_source, prediction) > kDoubtful2) {
-    found = space_ == Space::se2 ? search(surface, prediction, found)
-                                 : search_wide(surface, prediction, found);
-    if (credit(found, prediction) < least) {
-      ++counts_.odometry_only;
-      if (found.termination != Registration::Termination::too_few_points) ++refused_;
-      return {prediction.T_track_robot, Matrix6d::Zero(), false, prediction.T_track_robot};
-    }
-    ++counts_.searched;
+  const LocatedSurface located =
+      locate(space_, surface, map_.target(), prediction, !odometry_moves_);
+  const Registration& found = located.registration;
+  if (!located.fits) {
+    ++counts_.odometry_only;
+    if (found.termination != Registration::Termination::too_few_points) ++refused_;
+    return {prediction.T_map_robot, Matrix6d::Zero(), false, prediction.T_map_robot};
   }
+  if (located.searched) ++counts_.searched;
   ++counts_.registered;
   refused_ = 0;
   // The estimate lies between the prediction p and what the surfaces alone say, m:
   // x - p = (I + P)^-1 I (m - p) with their informations I and P.
-  const Vector6d moved = boxminus(found.T_target_source, prediction.T_track_robot);
+  const Vector6d moved = boxminus(found.T_target_source, prediction.T_map_robot);
   const Matrix6d noise = inverse_in(space_, found.information + kNothing * Matrix6d::Identity());
   const Vector6d free = moved + noise * (prediction.information * moved);
-  return {found.T_target_source, found.information, true, boxplus(prediction.T_track_robot, free)};
-}
-
-Registration Tracker::search(const Surface& surface, const Prediction& prediction,
-                             const Registration& first) {
-  const Eigen::Matrix2d planar = prediction.covariance.topLeftCorner<2, 2>();
-  const double sigma_m = std::sqrt(planar.trace());
-  const double sigma_rad = std::sqrt(prediction.covariance(5, 5));
-  const CorrelativeWindow window{std::clamp(5 * sigma_m, kLeastWindow_m, kLargestWindow_m),
-                                 std::clamp(5 * sigma_rad, kLeastWindow_rad, kLargestWindow_rad)};
-  const auto matches_within = [&](const CorrelativeWindow& within) {
-    return correlative_search(surface, map_.target(), prediction.T_track_robot, within, kStarts);
-  };
-  const Registration near = best_of(matches_within(window), surface, prediction, first);
-  if (credit(near, prediction) >= kLeastInlierFraction) return near;
-  if (seen_through_share(surface, map_.target(), prediction.T_track_robot) < kImpossibleShare)
-    return near;
-  const std::vector<CorrelativeMatch> far = matches_within({kLargestWindow_m, std::numbers::pi});
-  if (far.size() > 1 && far[1].score > kAmbiguousShare * far[0].score) return near;
-  const Registration best = best_of(far, surface, prediction, near);
-  return best.inlier_fraction >= kLeastFarInlierFraction ? best : near;
-}
-
-Registration Tracker::search_wide(const Surface& surface, const Prediction& prediction,
-                                  const Registration& first) const {
-  RegistrationOptions options;
-  options.space = space_;
-  options.max_correspondence_m = kWideCorrespondence_m;
-  options.prior = PosePrior{prediction.T_track_robot, prediction.information};
-  const Registration found =
-      register_surface(surface, map_.target(), prediction.T_track_robot, options);
-  return credit(found, prediction) > credit(first, prediction) ? found : first;
-}
-
-Registration Tracker::best_of(const std::vector<CorrelativeMatch>& matches, const Surface& surface,
-                              const Prediction& prediction, const Registration& first) const {
-  std::vector<Pose> starts{first.T_target_source};
-  for (const CorrelativeMatch& match : matches) starts.push_back(match.T_target_source);
-  Registration best = first;
-  for (const Pose& start : starts) {
-    // The odometry is as wrong as the start says, but only in that direction: along a corridor, of
-    // which the start knows nothing, it still counts.
-    const Vector6d error = boxminus(start, prediction.T_track_robot);
-    RegistrationOptions options;
-    options.space = space_;
-    options.prior =
-        PosePrior{prediction.T_track_robot,
-                  inverse_in(space_, prediction.covariance + 4 * error * error.transpose())};
-    const Registration found = register_surface(surface, map_.target(), start, options);
-    if (credit(found, prediction) > credit(best, prediction)) best = found;
-  }
-  return best;
+  return {found.T_target_source, found.information, true, boxplus(prediction.T_map_robot, free)};
 }
 
 void Tracker::add_keyframe(const Observation& observation, const Estimate& estimate,

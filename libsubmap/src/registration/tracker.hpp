@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "hmt/submap/registration/correlative.hpp"
 #include "hmt/submap/registration/track.hpp"
 #include "local_map.hpp"
+#include "locate.hpp"
 #include "odometry_calibration.hpp"
 #include "odometry_model.hpp"
 
@@ -37,12 +37,6 @@ class Tracker {
     Pose T_track_measured;  // what the surfaces alone say, without the prediction
   };
 
-  struct Prediction {
-    Pose T_track_robot;
-    Matrix6d covariance = Matrix6d::Zero();
-    Matrix6d information = Matrix6d::Zero();
-  };
-
   /// A step between two observations.
   struct Motion {
     Pose odometry;  ///< as the log has it
@@ -53,16 +47,6 @@ class Tracker {
   };
 
   Estimate estimate(const Surface& surface, const Prediction& prediction);
-  Registration search(const Surface& surface, const Prediction& prediction,
-                      const Registration& first);
-  /// In space: registration from farther away.
-  Registration search_wide(const Surface& surface, const Prediction& prediction,
-                           const Registration& first) const;
-  Registration best_of(const std::vector<CorrelativeMatch>& matches, const Surface& surface,
-                       const Prediction& prediction, const Registration& first) const;
-  /// Inlier fraction less what the contradiction to the odometry costs.
-  double credit(const Registration& registration, const Prediction& prediction) const;
-  double mahalanobis2(const Pose& T_track_robot, const Prediction& prediction) const;
   void start(const Observation& observation, Surface surface);
   /// The robot's motion since the latest observation, before its surfaces are looked at.
   Motion predict_step(const Observation& observation);

@@ -10,6 +10,7 @@
 
 #include "hmt/submap/log/simulation.hpp"
 #include "real_data.hpp"
+#include "scene.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -118,6 +119,28 @@ TEST(TrackLog, SurvivesOdometryThatTurnsByItself) {
         graph::relative_pose(original[i - 1].T_odom_robot, original[i].T_odom_robot) *
         Pose::planar(0, 0, 0.05);
   EXPECT_LT(largest_error_m(track(log.observations), log.T_world_robot, 1), 0.1);
+}
+
+// The robot backs away by a step, which the wheels count as one more step ahead.
+TEST(TrackLog, FindsARobotWhoseOdometryCountsBackwardsAsForwards) {
+  constexpr double kStep_m = 1.3;
+  const std::vector<double> places_m = {-2, -2 + kStep_m, -2 + 2 * kStep_m, -2 + kStep_m, -2};
+  std::mt19937 random(1);
+  std::vector<Observation> observations;
+  for (size_t i = 0; i < places_m.size(); ++i) {
+    const test::Laser laser{.noise_m = 0.01};
+    Observation seen = test::scan(test::room(), Pose::planar(places_m[i], 0.5, 0.2), laser, random);
+    seen.index = static_cast<int64_t>(i);
+    seen.stamp_s = static_cast<double>(i);
+    seen.T_odom_robot =
+        Pose::planar(kStep_m * static_cast<double>(i), 0, 0) * Pose::planar(0, 0, 0.2);
+    observations.push_back(std::move(seen));
+  }
+  const Track found = track(observations);
+  for (size_t i = 0; i < places_m.size(); ++i)
+    EXPECT_NEAR(relative_pose(tracked_pose(found, 0), tracked_pose(found, i)).translation.norm(),
+                std::abs(places_m[i] - places_m[0]), 0.05)
+        << i;
 }
 
 TEST(TrackLog, FollowsARobotWithoutOdometry) {

@@ -26,10 +26,13 @@ struct CorrelativeMatch {
 /// Exhaustive search of a source on a target seen from above, coarse to fine [Olson 2009]: every
 /// pose of a 5 cm grid in the window, bounded from above by pooled cells. Returns up to
 /// `max_matches` poses that differ by more than 0.3 m or 0.1 rad, best first; nothing if either
-/// side is empty. To be refined by register_surface.
+/// side is empty. What scores less than `least_score` may be left out, which saves most of the time
+/// where nothing fits; if the best one scores that much, nothing is left out within 0.7 of it. To
+/// be refined by register_surface.
 std::vector<CorrelativeMatch> correlative_search(const Surface& source,
                                                  const RegistrationTarget& target,
                                                  const Pose& T_target_source_guess,
-                                                 const CorrelativeWindow& window, int max_matches);
+                                                 const CorrelativeWindow& window, int max_matches,
+                                                 double least_score = 0);
 
 }  // namespace hmt::submap

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The hmtmap authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "hmt/submap/registration/correlative.hpp"
+#include "information.hpp"
+#include "seen_through.hpp"
+
+namespace hmt::submap {
+namespace {
+
+// A registration is taken if so many of the usable points meet the local map; new sights open at
+// less than half of the view from one observation to the next.
+constexpr double kLeastInlierFraction = 0.5;
+// Clouds see farther: more of each is new.
+constexpr double kLeastCloudInlierFraction = 0.3;
+// Clouds fill the plane, so no search from above helps; surfaces stand metres apart, so a wide
+// search for corresponding points does.
+constexpr double kWideCorrespondence_m = 2.0;
+// Chi2 of three degrees of freedom beyond which a prediction is doubted (one in a thousand).
+constexpr double kDoubtful2 = 16;
+// A registration that contradicts the odometry needs more inliers: wheels slip and clocks jitter
+// with heavy tails, hence the logarithm. 0.12 more at chi2 1000, about 30 standard deviations.
+constexpr double kInliersPerDoubt = 0.03;
+constexpr int kStarts = 3;
+// Far from the odometry's guess nearly all must fit, and no other place so nearly as well.
+constexpr double kLeastFarInlierFraction = 0.8;
+constexpr double kAmbiguousShare = 0.85;
+// ... and the odometry's own pose must be impossible: a view into a new room is not.
+constexpr double kImpossibleShare = 0.3;
+// With more inliers than this nothing can be seen through that makes a pose impossible.
+constexpr double kClearInlierFraction = 0.85;
+constexpr double kLeastWindow_m = 0.5, kLargestWindow_m = 2.0;
+// Wheels that do not tell backwards from forwards are wrong by twice the step.
+constexpr double kWorstStep = 2;
+constexpr double kLeastWindow_rad = 0.3, kLargestWindow_rad = 1.0;
+
+double least_inliers(Space space) {
+  return space == Space::se2 ? kLeastInlierFraction : kLeastCloudInlierFraction;
+}
+
+/// What all steps of a search share.
+class Locator {
+ public:
+  Locator(Space space, const Surface& surface, const RegistrationTarget& map,
+          const Prediction& prediction)
+      : space_(space), surface_(surface), map_(map), prediction_(prediction) {}
+
+  Registration near_prediction(double max_correspondence_m) const;
+  /// In the plane.
+  Registration search(const Registration& first) const;
+  /// In space: registration from farther away.
+  Registration search_wide(const Registration& first) const;
+  bool is_doubtful(const Registration& found) const {
+    return mahalanobis2(found) > kDoubtful2 || !fits(found);
+  }
+  bool meets_enough(const Registration& found) const {
+    return credit(found) >= least_inliers(space_);
+  }
+
+ private:
+  double mahalanobis2(const Registration& found) const;
+  /// Inlier fraction less what the contradiction to the odometry costs.
+  double credit(const Registration& found) const;
+  /// Whether the surface would have looked through what stands in the plane.
+  bool is_impossible(const Pose& T_map_robot) const;
+  bool fits(const Registration& found) const;
+  std::vector<CorrelativeMatch> matches(const CorrelativeWindow& window, double least_score) const {
+    return correlative_search(surface_, map_, prediction_.T_map_robot, window, kStarts,
+                              least_score);
+  }
+  Registration best_of(const std::vector<CorrelativeMatch>& matches,
+                       const Registration& first) const;
+  /// `near` where there is no match, or two that differ.
+  Registration unambiguous(const CorrelativeWindow& window, double least_score,
+                           const Registration& near) const;
+
+  Space space_;
+  const Surface& surface_;
+  const RegistrationTarget& map_;
+  const Prediction& prediction_;
+};
+
+double Locator::mahalanobis2(const Registration& found) const {
+  const Vector6d innovation = graph::boxminus(found.T_target_source, prediction_.T_map_robot);
+  return innovation.dot(prediction_.information * innovation);
+}
+
+double Locator::credit(const Registration& found) const {
+  if (found.termination == Registration::Termination::too_few_points) return 0;
+  const double doubt = mahalanobis2(found) / kDoubtful2;
+  return found.inlier_fraction - kInliersPerDoubt * std::log(std::max(1.0, doubt));
+}
+
+bool Locator::is_impossible(const Pose& T_map_robot) const {
+  return space_ == Space::se2 &&
+         seen_through_share(surface_, map_, T_map_robot) >= kImpossibleShare;
+}
+
+bool Locator::fits(const Registration& found) const {
+  return meets_enough(found) &&
+         (found.inlier_fraction >= kClearInlierFraction || !is_impossible(found.T_target_source));
+}
+
+Registration Locator::near_prediction(double max_correspondence_m) const {
+  RegistrationOptions options;
+  options.space = space_;
+  options.max_correspondence_m = max_correspondence_m;
+  options.prior = PosePrior{prediction_.T_map_robot, prediction_.information};
+  return register_surface(surface_, map_, prediction_.T_map_robot, options);
+}
+
+Registration Locator::best_of(const std::vector<CorrelativeMatch>& matches,
+                              const Registration& first) const {
+  std::vector<Pose> starts{first.T_target_source};
+  for (const CorrelativeMatch& match : matches) starts.push_back(match.T_target_source);
+  Registration best = first;
+  for (const Pose& start : starts) {
+    // The odometry is as wrong as the start says, but only in that direction: along a corridor, of
+    // which the start knows nothing, it still counts.
+    const Vector6d error = graph::boxminus(start, prediction_.T_map_robot);
+    RegistrationOptions options;
+    options.space = space_;
+    options.prior =
+        PosePrior{prediction_.T_map_robot,
+                  inverse_in(space_, prediction_.covariance + 4 * error * error.transpose())};
+    const Registration found = register_surface(surface_, map_, start, options);
+    if (credit(found) > credit(best)) best = found;
+  }
+  return best;
+}
+
+Registration Locator::unambiguous(const CorrelativeWindow& window, double least_score,
+                                  const Registration& near) const {
+  const std::vector<CorrelativeMatch> far = matches(window, least_score);
+  const bool ambiguous = far.size() > 1 && far[1].score > kAmbiguousShare * far[0].score;
+  return ambiguous ? near : best_of(far, near);
+}
+
+Registration Locator::search(const Registration& first) const {
+  const Eigen::Matrix2d planar = prediction_.covariance.topLeftCorner<2, 2>();
+  const double sigma_m = std::sqrt(planar.trace());
+  const double sigma_rad = std::sqrt(prediction_.covariance(5, 5));
+  const CorrelativeWindow window{std::clamp(5 * sigma_m, kLeastWindow_m, kLargestWindow_m),
+                                 std::clamp(5 * sigma_rad, kLeastWindow_rad, kLargestWindow_rad)};
+  const Registration near = best_of(matches(window, 0), first);
+  if (fits(near) || !is_impossible(prediction_.T_map_robot)) return near;
+  const Registration beyond =
+      unambiguous({kLargestWindow_m + kWorstStep * prediction_.step_m, window.half_angle_rad},
+                  kLeastInlierFraction, near);
+  if (fits(beyond)) return beyond;
+  const Registration turned =
+      unambiguous({kLargestWindow_m, std::numbers::pi}, kLeastFarInlierFraction, near);
+  return turned.inlier_fraction >= kLeastFarInlierFraction ? turned : near;
+}
+
+Registration Locator::search_wide(const Registration& first) const {
+  const Registration found = near_prediction(kWideCorrespondence_m);
+  return credit(found) > credit(first) ? found : first;
+}
+
+}  // namespace
+
+LocatedSurface locate(Space space, const Surface& surface, const RegistrationTarget& map,
+                      const Prediction& prediction, bool blind) {
+  const Locator locator(space, surface, map, prediction);
+  LocatedSurface located;
+  located.registration = locator.near_prediction(RegistrationOptions{}.max_correspondence_m);
+  // A guess may be so far off that a wrong pose fits well enough.
+  if (blind || locator.is_doubtful(located.registration)) {
+    located.searched = true;
+    located.registration = space == Space::se2 ? locator.search(located.registration)
+                                               : locator.search_wide(located.registration);
+  }
+  located.fits = locator.meets_enough(located.registration);
+  return located;
+}
+
+}  // namespace hmt::submap
