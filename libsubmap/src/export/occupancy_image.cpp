@@ -60,7 +60,8 @@ BlockGrid<CountedCell> count_cells(std::span<const PlacedObservation> observatio
       const size_t begin = task * kObservationsInTask;
       const size_t count = std::min(kObservationsInTask, observations.size() - begin);
       for (const PlacedObservation& placed : observations.subspan(begin, count)) {
-        for (const Reading& reading : store.load(placed.observation)->readings)
+        for (const auto seen = store.load(placed.observation);
+             const Reading& reading : seen->readings)
           cast_reading(reading, T_corner_frame * placed.T_frame_robot, Space::se2, resolution_m,
                        ++reading_number, grid);
       }

@@ -41,7 +41,7 @@ std::vector<Eigen::Vector3f> submap_cloud(std::span<const PlacedObservation> obs
   BlockGrid<MeanCell> grid;
   const double resolution_m = octree_resolution(ot_bytes);
   for (const PlacedObservation& placed : observations)
-    for (const Reading& reading : store.load(placed.observation)->readings)
+    for (const auto seen = store.load(placed.observation); const Reading& reading : seen->readings)
       add_points(reading, placed.T_frame_robot, resolution_m, grid);
   std::vector<Eigen::Vector3d> means;
   grid.for_each([&](const CellIndex&, const MeanCell& cell) {

@@ -87,7 +87,7 @@ std::string build_octree(std::span<const PlacedObservation> observations,
   BlockGrid<LogOddsCell> grid;
   uint32_t reading_number = 0;
   for (const PlacedObservation& placed : observations)
-    for (const Reading& reading : store.load(placed.observation)->readings)
+    for (const auto seen = store.load(placed.observation); const Reading& reading : seen->readings)
       cast_reading(reading, placed.T_frame_robot, space, options.resolution_m, ++reading_number,
                    grid);
   octomap::OcTree tree(options.resolution_m);

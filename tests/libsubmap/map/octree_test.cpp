@@ -88,6 +88,24 @@ TEST(Octree, ObservationsAreDrawnWhereTheyStand) {
   EXPECT_NEAR(wall->center.y(), 5.05, 1e-6);
 }
 
+/// Nobody but the caller holds what it loads; once released, it has no readings any more.
+class ForgetfulStore : public ObservationStore {
+ public:
+  explicit ForgetfulStore(Observation observation) : observation_(std::move(observation)) {}
+  std::shared_ptr<const Observation> load(int64_t) const override {
+    return {&observation_, [this](const Observation*) { observation_.readings.clear(); }};
+  }
+
+ private:
+  mutable Observation observation_;
+};
+
+TEST(Octree, HoldsAnObservationWhileItIsDrawn) {
+  const ForgetfulStore store(observation_of({{1.05f, 0, 0}}));
+  const std::string tree = build_octree({{{0, {}}}}, store, Space::se2, {kResolution});
+  EXPECT_EQ(octree_cells(tree).size(), 11u);
+}
+
 TEST(Octree, LeavesOutPointsThatAreNotFinite) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
