@@ -16,6 +16,7 @@
 #include "hmt/submap/export/topology.hpp"
 #include "hmt/submap/export/trajectory.hpp"
 #include "hmt/submap/map/octree.hpp"
+#include "number_text.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -86,7 +87,7 @@ class Export {
   void loops() const { write("loops.jsonl", loops_jsonl(map_)); }
 
   void report() {
-    const OccupancyImage* walls = planar() && has_surfaces() ? &image() : nullptr;
+    const OccupancyImage* walls = has_surfaces() ? &image() : nullptr;
     write("report.html", report_html(map_, file_.origin(), walls));
   }
 
@@ -115,10 +116,26 @@ class Export {
     write(name + ".pcd", to_pcd(cloud));
   }
 
+  HeightBand height_band(const std::vector<PlacedObservation>& observations) const {
+    HeightBand band = find_height_band(observations, file_);
+    if (const auto& asked = options_.height_band_m) {
+      band.min_m = (*asked)[0];
+      band.max_m = (*asked)[1];
+    }
+    return band;
+  }
+
   /// Drawn once, for the map and for the report.
   const OccupancyImage& image() {
-    if (image_.cells.empty())
-      image_ = draw_occupancy(observations_in_world(map_), file_, options_.map_resolution_m, run_);
+    if (!image_.cells.empty()) return image_;
+    const auto observations = observations_in_world(map_);
+    std::optional<HeightBand> band;
+    if (!planar()) band = height_band(observations);
+    const double resolution_m = options_.map_resolution_m.value_or(planar() ? 0.05 : 0.2);
+    image_ = draw_occupancy(observations, file_, band, resolution_m, run_);
+    if (band)
+      run_.log_info("map.pgm shows heights from " + fixed_text(band->min_m, 2) + " to " +
+                    fixed_text(band->max_m, 2) + " m over the origin of the robot");
     return image_;
   }
 
@@ -197,12 +214,12 @@ bool is_of_surfaces(const std::string& name) {
 std::string what_lacks(const std::string& part, const Export& work) {
   if (part == "landmarks" && work.hybrid_map().landmarks.empty()) return "the map has none";
   if (is_of_surfaces(part) && !work.has_surfaces()) return "a map of landmarks has no surfaces";
-  if (part == "map" && !work.planar())
-    return "an occupancy image needs a planar map, and this one is not";
   return "";
 }
 
 std::vector<const Part*> chosen_parts(const ExportOptions& options, const Export& work) {
+  if (options.height_band_m && work.planar())
+    throw InputError("a height band is for maps of clouds, and this map is planar");
   std::vector<const Part*> chosen;
   for (const std::string& name : options.parts) {
     chosen.push_back(&part_named(name));

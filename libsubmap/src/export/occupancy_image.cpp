@@ -7,7 +7,7 @@
 
 #include <mutex>
 
-#include "../map/scan_caster.hpp"
+#include "height_band.hpp"
 #include "number_text.hpp"
 
 namespace hmt::submap {
@@ -39,9 +39,22 @@ struct Bounds {
   CellIndex max = CellIndex::Constant(std::numeric_limits<int>::min());
 };
 
+/// What to draw of readings, and how.
+struct Drawing {
+  const ObservationStore& store;
+  std::optional<HeightBand> band;
+  double resolution_m;
+  Pose T_corner_frame;
+
+  std::vector<Beam> beams(const Reading& reading, const Pose& T_frame_robot) const {
+    const Pose T_corner_robot = T_corner_frame * T_frame_robot;
+    return band ? beams_in_band(reading, T_corner_robot, *band, resolution_m)
+                : beams_of(reading, T_corner_robot, Space::se2, resolution_m);
+  }
+};
+
 BlockGrid<CountedCell> count_cells(std::span<const PlacedObservation> observations,
-                                   const ObservationStore& store, double resolution_m,
-                                   const Pose& T_corner_frame, const Run& run) {
+                                   const Drawing& drawing, const Run& run) {
   BlockGrid<CountedCell> total;
   std::mutex mutex;
   bool stopped = false;
@@ -60,10 +73,9 @@ BlockGrid<CountedCell> count_cells(std::span<const PlacedObservation> observatio
       const size_t begin = task * kObservationsInTask;
       const size_t count = std::min(kObservationsInTask, observations.size() - begin);
       for (const PlacedObservation& placed : observations.subspan(begin, count)) {
-        for (const auto seen = store.load(placed.observation);
+        for (const auto seen = drawing.store.load(placed.observation);
              const Reading& reading : seen->readings)
-          cast_reading(reading, T_corner_frame * placed.T_frame_robot, Space::se2, resolution_m,
-                       ++reading_number, grid);
+          cast_beams(drawing.beams(reading, placed.T_frame_robot), ++reading_number, grid);
       }
       const std::lock_guard lock(mutex);
       grid.for_each([&](const CellIndex& index, const CountedCell& cell) {
@@ -93,17 +105,21 @@ Bounds bounds_of(const BlockGrid<CountedCell>& grid) {
 }  // namespace
 
 OccupancyImage draw_occupancy(std::span<const PlacedObservation> observations,
-                              const ObservationStore& store, double resolution_m, const Run& run) {
+                              const ObservationStore& store, const std::optional<HeightBand>& band,
+                              double resolution_m, const Run& run) {
   if (!(resolution_m >= 0.005 && resolution_m <= 10))
     throw InputError("map resolution is " + number_text(resolution_m) +
                      " m; it must lie in [0.005, 10]");
+  if (band && !(band->min_m < band->max_m))
+    throw InputError("height band is " + number_text(band->min_m) + " to " +
+                     number_text(band->max_m) + " m; its lower end must be below its upper end");
   // Drawn around the first observation, so that worlds with a far origin fit too.
   Eigen::Vector3d corner = Eigen::Vector3d::Zero();
   if (!observations.empty())
     corner = resolution_m *
              (observations[0].T_frame_robot.translation / resolution_m).array().floor().matrix();
   const Pose T_corner_frame = Pose{-corner, Eigen::Quaterniond::Identity()};
-  const auto grid = count_cells(observations, store, resolution_m, T_corner_frame, run);
+  const auto grid = count_cells(observations, {store, band, resolution_m, T_corner_frame}, run);
   const Bounds bounds = bounds_of(grid);
   OccupancyImage image;
   image.resolution_m = resolution_m;

@@ -88,8 +88,8 @@ std::string build_octree(std::span<const PlacedObservation> observations,
   uint32_t reading_number = 0;
   for (const PlacedObservation& placed : observations)
     for (const auto seen = store.load(placed.observation); const Reading& reading : seen->readings)
-      cast_reading(reading, placed.T_frame_robot, space, options.resolution_m, ++reading_number,
-                   grid);
+      cast_beams(beams_of(reading, placed.T_frame_robot, space, options.resolution_m),
+                 ++reading_number, grid);
   octomap::OcTree tree(options.resolution_m);
   constexpr int kCenterKey = 32768;
   grid.for_each([&](const CellIndex& index, const LogOddsCell& cell) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "block_grid.hpp"
@@ -13,7 +14,7 @@
 namespace hmt::submap {
 
 /// A cell that knows in which reading it was last changed; 0 for never. The base of all cells that
-/// cast_reading draws in, which need hit() and miss() besides.
+/// cast_beams draws in, which need hit() and miss() besides.
 struct DrawnCell {
   uint32_t last_reading = 0;
 };
@@ -52,41 +53,55 @@ void visit_cells_before(const Eigen::Vector3d& from, const Eigen::Vector3d& to, 
   }
 }
 
-/// Draws one reading: the cells of its points are hit, the cells that its beams passed are missed.
-/// A cell changes at most once for each reading and a hit wins, as in OctoMap's insertPointCloud.
-/// `reading_number` is another one for each reading, from 1.
-template <class Cell>
-void cast_reading(const Reading& reading, const Pose& T_frame_robot, Space space,
-                  double resolution_m, uint32_t reading_number, BlockGrid<Cell>& grid) {
+/// One measurement to draw, both ends in cells.
+struct Beam {
+  Eigen::Vector3d from, to;
+  bool hit = false;  ///< whether it ends in a point; otherwise the last cell tells nothing
+};
+
+inline bool is_on_grid(const Eigen::Vector3d& cells) {
+  return cells.allFinite() && cells.cwiseAbs().maxCoeff() < kGridEnd;
+}
+
+/// The beams of a reading that lie on the grid.
+inline std::vector<Beam> beams_of(const Reading& reading, const Pose& T_frame_robot, Space space,
+                                  double resolution_m) {
   const Pose T_frame_sensor = T_frame_robot * reading.T_robot_sensor;
   const auto to_cells = [&](const Eigen::Vector3d& p_sensor) {
     Eigen::Vector3d p = T_frame_sensor * p_sensor / resolution_m;
     if (space == Space::se2) p.z() = 0;  // rounding could put it into the layer below
     return p;
   };
-  const auto usable = [](const Eigen::Vector3d& p) {
-    return p.allFinite() && p.cwiseAbs().maxCoeff() < kGridEnd;
-  };
+  std::vector<Beam> beams;
   const Eigen::Vector3d from = to_cells(Eigen::Vector3d::Zero());
-  if (!usable(from)) return;
-  std::vector<Eigen::Vector3d> ends;
-  ends.reserve(reading.points_sensor.size() + reading.misses_sensor.size());
+  if (!is_on_grid(from)) return beams;
+  beams.reserve(reading.points_sensor.size() + reading.misses_sensor.size());
   for (const Eigen::Vector3f& p_sensor : reading.points_sensor) {
     const Eigen::Vector3d p = to_cells(p_sensor.cast<double>());
-    if (!usable(p)) continue;
-    ends.push_back(p);
-    Cell& cell = grid.at(p.array().floor().matrix().cast<int>());
-    if (cell.last_reading == reading_number) continue;
-    cell.last_reading = reading_number;
-    cell.hit();
+    if (is_on_grid(p)) beams.push_back({from, p, true});
   }
   const double miss_m = std::min(kMissLength_m, reading.max_range_m);
   for (const Eigen::Vector3f& direction : reading.misses_sensor) {
     const Eigen::Vector3d p = to_cells(miss_m * direction.cast<double>());
-    if (usable(p)) ends.push_back(p);
+    if (is_on_grid(p)) beams.push_back({from, p, false});
   }
-  for (const Eigen::Vector3d& end : ends)
-    visit_cells_before(from, end, [&](const CellIndex& index) {
+  return beams;
+}
+
+/// Draws the beams of one reading: the cells of its points are hit, the cells that its beams passed
+/// are missed. A cell changes at most once for each reading and a hit wins, as in OctoMap's
+/// insertPointCloud. `reading_number` is another one for each reading, from 1.
+template <class Cell>
+void cast_beams(std::span<const Beam> beams, uint32_t reading_number, BlockGrid<Cell>& grid) {
+  for (const Beam& beam : beams) {
+    if (!beam.hit) continue;
+    Cell& cell = grid.at(beam.to.array().floor().matrix().cast<int>());
+    if (cell.last_reading == reading_number) continue;
+    cell.last_reading = reading_number;
+    cell.hit();
+  }
+  for (const Beam& beam : beams)
+    visit_cells_before(beam.from, beam.to, [&](const CellIndex& index) {
       Cell& cell = grid.at(index);
       if (cell.last_reading == reading_number) return;
       cell.last_reading = reading_number;

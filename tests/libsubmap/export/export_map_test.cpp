@@ -132,6 +132,9 @@ TEST(ExportMap, RefusesWhatItCannotDo) {
   ExportOptions coarse;
   coarse.map_resolution_m = 0;
   EXPECT_THROW(export_map(file, folder / "out", coarse, run_with(1)), InputError);
+  ExportOptions banded;
+  banded.height_band_m = {0.0, 1.0};
+  EXPECT_THROW(export_map(file, folder / "out", banded, run_with(1)), InputError);
 }
 
 /// A store with one observation of these points, seen from the origin of the robot.
@@ -154,7 +157,7 @@ ObservationVector store_of(std::vector<Eigen::Vector3f> points) {
 TEST(OccupancyImage, WallFreeSpaceAndUnknown) {
   const auto store = store_of({{2, 0, 0}, {0, 1, 0}});
   const std::vector<PlacedObservation> placed = {{0, Pose::planar(0.5, 0.5, 0)}};
-  const OccupancyImage image = draw_occupancy(placed, store, 1.0, run_with(1));
+  const OccupancyImage image = draw_occupancy(placed, store, {}, 1.0, run_with(1));
   ASSERT_EQ(image.width, 5);
   ASSERT_EQ(image.height, 4);
   EXPECT_EQ(image.origin, Eigen::Vector2d(-1, -1));
@@ -179,14 +182,73 @@ TEST(OccupancyImage, WallFreeSpaceAndUnknown) {
 TEST(OccupancyImage, FarFromTheOriginIsDrawnToo) {
   const auto store = store_of({{2, 0, 0}});
   const std::vector<PlacedObservation> placed = {{0, Pose::planar(4e6 + 0.5, 0.5, 0)}};
-  const OccupancyImage image = draw_occupancy(placed, store, 1.0, run_with(1));
+  const OccupancyImage image = draw_occupancy(placed, store, {}, 1.0, run_with(1));
   EXPECT_EQ(image.origin, Eigen::Vector2d(4e6 - 1, -1));
   EXPECT_EQ(image.width, 5);
 }
 
 TEST(OccupancyImage, NothingSeenIsOneUnknownCell) {
-  const OccupancyImage image = draw_occupancy({}, store_of({}), 0.05, run_with(1));
+  const OccupancyImage image = draw_occupancy({}, store_of({}), {}, 0.05, run_with(1));
   EXPECT_EQ(image.cells, std::vector<Occupancy>{Occupancy::unknown});
+}
+
+// Seen from (0.5, 0.5), 2 m high, with the band from 0.5 to 1.5 m above the ground: the floor 3 m
+// ahead, where the beam is in the band from x = 1.25 to 2.75; the wall at x = 4.5 in the band,
+// which the beam to it enters at x = 2.5; and what hangs from a ceiling, far too high.
+//
+//   x  -1 0 1 2 3 4 5
+//       ? . . . # ?     (from x = 1)
+TEST(OccupancyImage, ShowsOfCloudsWhatLiesInTheHeightBand) {
+  const auto store = store_of({{3, 0, -2}, {4, 0, -1}, {2, 0, 3}});
+  const std::vector<PlacedObservation> placed = {
+      {0, Pose{{0.5, 0.5, 2}, Eigen::Quaterniond::Identity()}}};
+  const HeightBand band{-1.5, -0.5, {0, 0}};
+  const OccupancyImage image = draw_occupancy(placed, store, band, 1.0, run_with(1));
+  EXPECT_EQ(image.origin, Eigen::Vector2d(0, -1));
+  ASSERT_EQ(image.width, 6);
+  ASSERT_EQ(image.height, 3);
+  const std::vector<Occupancy> row(image.cells.begin() + 6, image.cells.begin() + 12);
+  EXPECT_THAT(row, ElementsAre(Occupancy::unknown, Occupancy::free, Occupancy::free,
+                               Occupancy::free, Occupancy::occupied, Occupancy::unknown));
+  EXPECT_THROW(draw_occupancy(placed, store, HeightBand{1, 1, {0, 0}}, 1.0, run_with(1)),
+               InputError);
+}
+
+// A floor 1.2 m below the sensor, and a few points of a cellar below it that are no floor.
+TEST(OccupancyImage, FindsTheGroundUnderTheRobot) {
+  std::vector<Eigen::Vector3f> points;
+  for (int k = 0; k < 100; ++k) points.push_back({0.04f * static_cast<float>(k), 1, -1.2f});
+  for (int k = 0; k < 100; ++k) points.push_back({1, 2, 0.02f * static_cast<float>(k)});
+  points.push_back({3, 0, -4});
+  for (int k = 0; k < 500; ++k) points.push_back({20, 0, -3});  // down the hill
+  const auto store = store_of(points);
+  const HeightBand band =
+      find_height_band({{{0, Pose{{7, 8, 9}, Eigen::Quaterniond::Identity()}}}}, store);
+  EXPECT_NEAR(band.min_m, -0.9, 1e-6);
+  EXPECT_NEAR(band.max_m, 0.8, 1e-6);
+  EXPECT_EQ(find_height_band({}, store), (HeightBand{0.3, 2.0, {0, 0}}));
+}
+
+// The lidar was switched on while it leaned, so its frame sees a level floor rise by 1 in 10 along
+// x.
+TEST(OccupancyImage, FindsTheSlopeOfTheFrame) {
+  std::vector<Eigen::Vector3f> points;
+  for (int x = -20; x <= 20; ++x)
+    for (int y = -20; y <= 20; ++y) {
+      const Eigen::Vector2f at(0.2f * static_cast<float>(x), 0.2f * static_cast<float>(y));
+      points.push_back({at.x(), at.y(), -1 + 0.1f * at.x()});
+    }
+  for (int k = 0; k < 200; ++k) points.push_back({2, 1, -0.9f + 0.01f * static_cast<float>(k)});
+  const auto store = store_of(points);
+  const HeightBand band = find_height_band({{{0, Pose{}}}}, store);
+  EXPECT_NEAR(band.min_m, -0.7, 0.02);
+  EXPECT_NEAR(band.slope.x(), 0.1, 0.01);
+  EXPECT_NEAR(band.slope.y(), 0, 0.01);
+  // The floor at x = 4 is 0.6 m below the robot, but not in the band; a box 0.4 m over it is.
+  const std::vector<PlacedObservation> placed = {{0, Pose{}}};
+  const auto boxes = store_of({{4.5f, 0.5f, -0.55f}, {4.5f, -0.5f, -0.15f}});
+  const OccupancyImage image = draw_occupancy(placed, boxes, band, 1.0, run_with(1));
+  EXPECT_EQ(std::count(image.cells.begin(), image.cells.end(), Occupancy::occupied), 1);
 }
 
 TEST(SubmapCloud, IsTheMeanOfThePointsOfEachOccupiedCell) {

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,11 @@ struct ExportOptions {
   /// Which of export_parts(); empty for all that the map has.
   std::vector<std::string> parts;
   /// Side of the pixels of map.pgm, metres, [0.005, 10]; raising it makes a smaller, coarser image.
-  double map_resolution_m = 0.05;
+  /// Unless given, 0.05 of planar maps, 0.2 of maps in space, whose clouds are sparser.
+  std::optional<double> map_resolution_m;
+  /// Least and largest height of what map.pgm shows of clouds, metres over the robot's origin;
+  /// found from the ground unless given. Of planar maps none.
+  std::optional<std::array<double, 2>> height_band_m;
   /// Whether files that are there already are replaced.
   bool overwrite = false;
 };
@@ -25,7 +31,7 @@ struct ExportOptions {
 ///   partition   partition.csv
 ///   topology    topology.json, topology.graphml, topology.dot
 ///   pose_graph  pose_graph.g2o: submaps and links
-///   map         map.pgm, map.yaml: occupancy in the world, planar maps only
+///   map         map.pgm, map.yaml: occupancy of the ground plane of the world
 ///   submaps     submaps/NNNN.ot, .bt, .ply, .pcd: OctoMap and cloud of each, in its own frame
 ///   landmarks   landmarks.csv: where the map has some; it has no image and no OctoMaps then
 ///   loops       loops.jsonl: every loop-closure candidate

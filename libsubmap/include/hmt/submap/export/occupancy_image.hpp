@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,13 +33,32 @@ struct OccupancyImage {
   }
 };
 
-/// Draws planar observations: a cell is occupied if at least a quarter of the readings that said
-/// something of it had a point in it, free if there were fewer, unknown if there were none. With a
-/// border of one unknown cell; without observations one unknown cell. Same result for any number of
-/// threads. Throws InputError if the resolution is not in [0.005, 10] m or the image would have
-/// more than 10^9 cells.
+/// Heights over the origin of the robot where it stood, along z, metres; min < max.
+struct HeightBand {
+  double min_m = 0;
+  double max_m = 0;
+  /// What counts as level: metres that the plane through the robot's origin rises for a metre along
+  /// x and y of the frame. Frames of lidars that were mounted or switched on aslant are tilted.
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+
+  bool operator==(const HeightBand&) const = default;
+};
+
+/// What a robot or a person could bump into: from 0.3 m to 2 m over the ground. The ground is the
+/// plane that fits the points within 5 m of the robot, of some 100 observations together, around
+/// the median height of the lowest twentieth of them. It is level where they show no such plane,
+/// and z = 0 where there are none.
+HeightBand find_height_band(std::span<const PlacedObservation> observations,
+                            const ObservationStore& store);
+
+/// Draws planar observations, or what clouds show within the band: a cell is occupied if at least a
+/// quarter of the readings that said something of it had a point in it, free if there were fewer,
+/// unknown if there were none. With a border of one unknown cell; without observations one unknown
+/// cell. Same result for any number of threads. Throws InputError if the resolution is not in
+/// [0.005, 10] m, the band is empty, or the image would have more than 10^9 cells.
 OccupancyImage draw_occupancy(std::span<const PlacedObservation> observations,
-                              const ObservationStore& store, double resolution_m, const Run& run);
+                              const ObservationStore& store, const std::optional<HeightBand>& band,
+                              double resolution_m, const Run& run);
 
 /// Binary PGM as map_server and nav2 read it: the first row is the highest y.
 std::string to_pgm(const OccupancyImage& image);
