@@ -73,13 +73,14 @@ struct SampleScan {
   float range_min = 0;
   float range_max = 0;
   std::vector<double> ranges;
+  float time_increment = 0;
 };
 
 inline std::string laser_scan(WireWriter out, const SampleScan& scan, bool multi_echo = false) {
   out.header(scan.stamp_ns, scan.frame);
   const float last = scan.angle_min + scan.angle_increment * static_cast<float>(scan.ranges.size());
-  for (const float v :
-       {scan.angle_min, last, scan.angle_increment, 0.F, 0.1F, scan.range_min, scan.range_max})
+  for (const float v : {scan.angle_min, last, scan.angle_increment, scan.time_increment, 0.1F,
+                        scan.range_min, scan.range_max})
     out.number(v);
   out.number(static_cast<uint32_t>(scan.ranges.size()));
   for (const double range : scan.ranges) {
@@ -123,6 +124,39 @@ inline std::string cloud(WireWriter out, int64_t stamp_ns, std::string_view fram
   for (const Eigen::Vector3f& p : points) {
     WireWriter data(submap::Wire::ros1, !big_endian);
     out.raw(data.number(0.5F).number(p.x()).number(p.y()).number(p.z()).bytes());
+  }
+  return out.number(uint8_t{1}).bytes();
+}
+
+/// A field of the time of points: how it is called, its datatype in PointField and its values.
+struct SampleTimes {
+  std::string name;
+  uint8_t datatype = 7;  ///< 6 uint32, 7 float32, 8 float64
+  std::vector<double> values;
+};
+
+/// A cloud of one row whose points are x, y, z and a time.
+inline std::string timed_cloud(WireWriter out, int64_t stamp_ns, std::string_view frame,
+                               const std::vector<Eigen::Vector3f>& points,
+                               const SampleTimes& times) {
+  const auto width = static_cast<uint32_t>(points.size());
+  const uint32_t step = times.datatype == 8 ? 20 : 16;
+  out.header(stamp_ns, frame).number(uint32_t{1}).number(width).number(uint32_t{4});
+  const std::string names[] = {"x", "y", "z", times.name};
+  for (uint32_t k = 0; k < 4; ++k)
+    out.text(names[k])
+        .number(4 * k)
+        .number(k < 3 ? uint8_t{7} : times.datatype)
+        .number(uint32_t{1});
+  out.number(uint8_t{0}).number(step).number(step * width).number(step * width);
+  for (size_t i = 0; i < points.size(); ++i) {
+    WireWriter data(submap::Wire::ros1);
+    for (const float v : points[i]) data.number(v);
+    const double time = times.values[i];
+    if (times.datatype == 8) data.number(time);
+    if (times.datatype == 7) data.number(static_cast<float>(time));
+    if (times.datatype == 6) data.number(static_cast<uint32_t>(time));
+    out.raw(data.bytes());
   }
   return out.number(uint8_t{1}).bytes();
 }

@@ -203,10 +203,10 @@ Reading CarmenReader::reading(const Scan& scan, const Pose& T_odom_robot) {
   if (const auto limit_m = lasers_.at(scan.sensor).limit.limit_m())
     reading.max_range_m = std::min(reading.max_range_m, *limit_m);
   if (record.ranges_m.empty()) note("scans without beams", scan.place);
-  const DroppedRanges dropped =
+  const UsedRanges used =
       add_ranges(record.ranges_m, record.start_angle_rad, record.beam_step_rad, reading);
-  note("ranges left out: not a number", scan.place, dropped.not_a_number);
-  note("ranges left out: zero or negative", scan.place, dropped.not_positive);
+  note("ranges left out: not a number", scan.place, used.not_a_number);
+  note("ranges left out: zero or negative", scan.place, used.not_positive);
   return reading;
 }
 

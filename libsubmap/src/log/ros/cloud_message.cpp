@@ -7,7 +7,8 @@ namespace {
 
 // Bytes of the shortest PointField: an empty name, offset, datatype, count.
 constexpr size_t kLeastField = 4 + 4 + 1 + 4;
-// Datatypes of sensor_msgs/PointField.
+// Sizes of the datatypes of sensor_msgs/PointField: from 1, int8 and uint8, ..., float32, float64.
+constexpr size_t kSizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
 constexpr int kFloat32 = 7;
 constexpr int kFloat64 = 8;
 
@@ -20,7 +21,7 @@ PointLayout read_layout(WireReader& in) {
     const int datatype = in.number<uint8_t>();
     in.skip<uint32_t>(1);  // count
     const bool is_float = datatype == kFloat32 || datatype == kFloat64;
-    const size_t size = datatype == kFloat64 ? sizeof(double) : sizeof(float);
+    const size_t size = datatype <= kFloat64 ? kSizes[datatype] : 0;
     if (!layout.add_field(name, offset, size, is_float))
       throw MessageError("the coordinates are no floating-point numbers");
   }

@@ -16,6 +16,7 @@ constexpr int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr double kUnitTolerance = 0.1;
 /// No robot goes further; larger numbers break what is computed from them.
 constexpr double kMaxCoordinate = 1e7;  // metres
+constexpr double kLongestSweep_s = 1;
 // Bytes of the shortest element of a sequence.
 constexpr size_t kLeastTransform = 4 + 4 + 4 + 4 + 56;
 constexpr size_t kLeastEcho = 4;
@@ -95,10 +96,13 @@ LaserScanMessage read_laser_scan(WireReader in, MessageKind kind) {
   scan.angle_min_rad = in.number<float>();
   in.skip<float>(1);  // angle_max
   scan.angle_increment_rad = in.number<float>();
-  in.skip<float>(2);  // time_increment, scan_time
+  const double time_increment_s = in.number<float>();
+  in.skip<float>(1);  // scan_time
   scan.range_min_m = in.number<float>();
   scan.range_max_m = in.number<float>();
   scan.ranges_m = kind == MessageKind::multi_echo_scan ? read_first_echoes(in) : read_ranges(in);
+  const double sweep_s = time_increment_s * static_cast<double>(scan.ranges_m.size());
+  if (sweep_s > 0 && sweep_s <= kLongestSweep_s) scan.time_increment_s = time_increment_s;
   if (!std::isfinite(scan.angle_min_rad)) throw MessageError("angle_min is not finite");
   if (!(std::abs(scan.angle_increment_rad) <= 2 * std::numbers::pi))
     throw MessageError("angle_increment is no angle");

@@ -45,6 +45,7 @@ struct LaserScanMessage {
   double angle_increment_rad = 0;
   double range_min_m = 0;
   double range_max_m = 0;
+  double time_increment_s = 0;  ///< between beams; 0 if it is not told or cannot be
   std::vector<double> ranges_m;
 };
 LaserScanMessage read_laser_scan(WireReader in, MessageKind kind);

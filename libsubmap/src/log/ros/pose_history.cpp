@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_history.hpp"
 
+#include <cmath>
+
 namespace hmt::submap {
 
 using graph::Pose;
@@ -10,6 +12,11 @@ uint64_t stamp_distance(int64_t a_ns, int64_t b_ns) {
   const auto a = static_cast<uint64_t>(a_ns);
   const auto b = static_cast<uint64_t>(b_ns);
   return a_ns > b_ns ? a - b : b - a;
+}
+
+int64_t stamp_after(int64_t stamp_ns, double seconds) {
+  return static_cast<int64_t>(static_cast<uint64_t>(stamp_ns) +
+                              static_cast<uint64_t>(std::llround(1e9 * seconds)));
 }
 
 Pose interpolate(const Pose& T_from, const Pose& T_to, double share) {

@@ -44,6 +44,9 @@ class PoseHistory {
 /// |a - b| without overflow, whatever a damaged log says.
 uint64_t stamp_distance(int64_t a_ns, int64_t b_ns);
 
+/// The stamp so many seconds later, without overflow.
+int64_t stamp_after(int64_t stamp_ns, double seconds);
+
 /// The pose at `share`, in [0, 1], of the way from one to another.
 graph::Pose interpolate(const graph::Pose& T_from, const graph::Pose& T_to, double share);
 

@@ -35,6 +35,24 @@ double seconds(int64_t stamp_ns) {
          static_cast<double>(stamp_ns - whole * kNanosecondsPerSecond) * 1e-9;
 }
 
+/// The times of the beams of a scan, or of the points of a cloud.
+std::vector<float> times_of(const LaserScanMessage& laser) {
+  std::vector<float> times_s;
+  if (laser.time_increment_s == 0) return times_s;
+  for (size_t i = 0; i < laser.ranges_m.size(); ++i)
+    times_s.push_back(static_cast<float>(static_cast<double>(i) * laser.time_increment_s));
+  return times_s;
+}
+std::vector<float> times_of(const CloudMessage& message) {
+  const CloudPoints& cloud = message.cloud;
+  return beam_times(cloud.times, cloud.times_in_nanoseconds, message.header.stamp_ns);
+}
+
+/// Where the point would have been seen from the sensor's pose at the stamp.
+Eigen::Vector3f deskewed(const Eigen::Vector3f& p_then, const Sweep& sweep, float time_s) {
+  return (sweep.T_stamp_then(time_s) * p_then.cast<double>()).cast<float>();
+}
+
 Pose in_plane(const Pose& T) {
   return Pose::planar(T.translation.x(), T.translation.y(), T.yaw_rad());
 }
@@ -128,6 +146,12 @@ void RecordingReader::add_scan(const RecordedMessage& message, size_t sensor,
     scan.laser = read_laser_scan(in, topic.kind());
   else
     scan.cloud = read_cloud(in);
+  scan.beam_times_s = scan.is_laser ? times_of(scan.laser) : times_of(scan.cloud);
+  if (!scan.beam_times_s.empty()) {
+    const auto [first_s, last_s] = std::ranges::minmax(scan.beam_times_s);
+    scan.first_beam_s = first_s;
+    scan.last_beam_s = last_s;
+  }
   const MessageHeader& header = scan.is_laser ? scan.laser.header : scan.cloud.header;
   scan.stamp_ns = clock_ns(header, message.received_ns);
   scan.own_stamp_s = seconds(header.stamp_ns != 0 ? header.stamp_ns : message.received_ns);
@@ -183,13 +207,11 @@ bool RecordingReader::place_scans() {
   const size_t before = ahead_.size();
   while (!waiting_.empty()) {
     Scan& scan = waiting_.front();
-    auto T_odom_robot = odometry_.between(scan.stamp_ns);
-    if (!T_odom_robot) {
-      if (!waits_too_long(scan)) break;
-      T_odom_robot = odometry_.at(scan.stamp_ns);
-    }
+    if (!has_odometry(scan) && !waits_too_long(scan)) break;
+    const auto T_odom_robot = odometry_.at(scan.stamp_ns);
     if (T_odom_robot) {
       scan.T_odom_robot = *T_odom_robot;
+      find_sweep(scan);
       if (scan.is_laser)
         limits_[scan.sensor].add(scan.laser.ranges_m,
                                  (scan.T_odom_robot * scan.T_robot_sensor).translation.head<2>());
@@ -200,6 +222,20 @@ bool RecordingReader::place_scans() {
     waiting_.pop_front();
   }
   return ahead_.size() > before;
+}
+
+/// Whether the odometry around the stamp and all beams has been read.
+bool RecordingReader::has_odometry(const Scan& scan) const {
+  if (!odometry_.between(scan.stamp_ns)) return false;
+  return odometry_.between(stamp_after(scan.stamp_ns, scan.last_beam_s)).has_value();
+}
+
+void RecordingReader::find_sweep(Scan& scan) {
+  if (scan.beam_times_s.empty()) return;
+  scan.sweep = Sweep::along(odometry_, scan.stamp_ns, scan.first_beam_s, scan.last_beam_s,
+                            scan.T_robot_sensor);
+  if (!scan.sweep)
+    note("scans left as they are, without odometry at the times of all beams", scan.place);
 }
 
 bool RecordingReader::waits_too_long(const Scan& scan) const {
@@ -234,17 +270,25 @@ Reading RecordingReader::laser_reading(const Scan& scan, Reading reading) {
   if (ranges_m.empty()) note("scans without beams", scan.place);
   // Seen from above, the beams of a laser that hangs upside down turn the other way.
   const double turn = scan.is_upside_down ? -1 : 1;
-  const DroppedRanges dropped =
+  const UsedRanges used =
       add_ranges(ranges_m, turn * laser.angle_min_rad, turn * laser.angle_increment_rad, reading);
-  note("ranges left out: not a number", scan.place, dropped.not_a_number);
+  note("ranges left out: not a number", scan.place, used.not_a_number);
   note("ranges left out: below range_min", scan.place, too_near);
-  note("ranges left out: zero or negative", scan.place, dropped.not_positive - too_near);
+  note("ranges left out: zero or negative", scan.place, used.not_positive - too_near);
+  if (scan.sweep)
+    for (size_t k = 0; k < reading.points_sensor.size(); ++k)
+      reading.points_sensor[k] = deskewed(reading.points_sensor[k], *scan.sweep,
+                                          scan.beam_times_s[used.beams_of_points[k]]);
   return reading;
 }
 
 Reading RecordingReader::cloud_reading(const Scan& scan, Reading reading) {
   const CloudPoints& cloud = scan.cloud.cloud;
   reading.points_sensor = cloud.points;
+  if (scan.sweep)
+    for (size_t k = 0; k < reading.points_sensor.size(); ++k)
+      reading.points_sensor[k] =
+          deskewed(reading.points_sensor[k], *scan.sweep, scan.beam_times_s[k]);
   complete_cloud(reading);
   note_cloud(report_, cloud, scan.place);
   return reading;

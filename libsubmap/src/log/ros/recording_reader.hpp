@@ -10,6 +10,7 @@
 #include "hmt/submap/log/log_reader.hpp"
 #include "pose_history.hpp"
 #include "recording_plan.hpp"
+#include "sweep.hpp"
 
 namespace hmt::submap {
 
@@ -17,7 +18,10 @@ namespace hmt::submap {
 /// odometry interpolated at its stamp, is an observation; a scan of another topic next to it is a
 /// further reading of it.
 ///
-/// A scan waits until the odometry around its stamp has been read, but for no more than two seconds
+/// Scans whose beams or points have times of their own are taken as seen from where the sensor was
+/// at the stamp: each point is moved by what the odometry says that the robot did in between.
+///
+/// A scan waits until the odometry around it has been read, but for no more than two seconds
 /// of the recording. Laser scans are read ahead to learn the code for a miss, as from CARMEN logs.
 class RecordingReader : public LogReader {
  public:
@@ -38,9 +42,13 @@ class RecordingReader : public LogReader {
     double own_stamp_s = 0;
     std::string place;
     Pose T_robot_sensor;
-    Pose T_odom_robot;       ///< at stamp_ns
-    LaserScanMessage laser;  ///< of a laser
-    CloudMessage cloud;      ///< of another sensor
+    Pose T_odom_robot;                ///< at stamp_ns
+    LaserScanMessage laser;           ///< of a laser
+    CloudMessage cloud;               ///< of another sensor
+    std::vector<float> beam_times_s;  ///< after the stamp: of beams, or of points; may be empty
+    double first_beam_s = 0;          ///< the least of them
+    double last_beam_s = 0;           ///< the greatest
+    std::optional<Sweep> sweep;       ///< where there are such times and the odometry around them
     bool is_laser = true;
     bool is_upside_down = false;
   };
@@ -54,6 +62,8 @@ class RecordingReader : public LogReader {
   bool mount(const MessageHeader& header, Scan& scan);
   bool mount_in_plane(Scan& scan);
   bool place_scans();
+  bool has_odometry(const Scan& scan) const;
+  void find_sweep(Scan& scan);
   bool waits_too_long(const Scan& scan) const;
   Reading reading(const Scan& scan, const Pose& T_odom_robot);
   Reading laser_reading(const Scan& scan, Reading reading);
