@@ -152,6 +152,11 @@ Action add_map(CLI::App& command) {
                   "Cells of the OctoMaps, metres [0.05, in space 0.2]")
       ->check(CLI::Range(0.005, 10.0))
       ->capture_default_str();
+  command
+      .add_option("--max-memory", options.max_memory_bytes,
+                  "Memory to take, such as 500M or 2G: caches take a tenth of it [96M], and a "
+                  "warning says where the map itself needs more")
+      ->transform(CLI::AsSizeValue(false));
   return [arguments](const Globals& globals) { return map_log(*arguments, globals); };
 }
 

@@ -5,12 +5,11 @@
 #include <span>
 #include <utility>
 
-#include "hmt/graph/pose_covariance.hpp"
+#include "find_loops.hpp"
 #include "hmt/graph/pose_optimizer.hpp"
 #include "hmt/submap/link/loop_effect.hpp"
 #include "hmt/submap/link/robust_solution.hpp"
 #include "hmt/submap/link/settle_submaps.hpp"
-#include "link/loop_patch.hpp"
 #include "stages.hpp"
 #include "whole_map.hpp"
 
@@ -24,11 +23,6 @@ constexpr double kSettledTurn_rad = 0.005;
 // ... but for a few stray keyframes, which one constraint more or less lets go to and fro.
 constexpr double kStrayShare = 0.01;
 constexpr double kStrayMove_m = 0.1;
-// Deviations of a relative pose within which registration finds the right match from the prediction
-// alone.
-constexpr double kTied_m = 0.1;
-constexpr double kTied_rad = 0.03;
-
 /// Differences between two sets of poses of the keyframes.
 struct Move {
   double metres = 0;  ///< the largest
@@ -53,66 +47,20 @@ Move move_between(std::span<const Pose> before, std::span<const Pose> after) {
   return move;
 }
 
-/// What the user rejected is not accepted again.
-void reject_again(std::vector<LoopCandidate>& candidates, std::span<const LoopCandidate> decided,
-                  std::span<const Pose> T_world_keyframe) {
-  const std::vector<double> path_m = path_lengths(T_world_keyframe);
-  for (LoopCandidate& candidate : candidates)
-    for (const LoopCandidate& rejected : decided) {
-      if (rejected.verdict != LoopVerdict::rejected || candidate.verdict != LoopVerdict::accepted ||
-          !tells_the_same(rejected, candidate, T_world_keyframe, path_m))
-        continue;
-      candidate.verdict = LoopVerdict::rejected;
-      candidate.reason = "tells the same as a candidate that the user rejected";
-    }
-}
-
-std::vector<LoopCandidate> find_loops(const HybridMap& map, std::span<const Pose> T_world_keyframe,
-                                      const MapFile& file, const Run& run) {
-  graph::PoseGraph graph =
-      graph_of_all(map.track, T_world_keyframe, map.constraints, map.sightings);
-  const graph::PoseCovariance covariance(graph);
-  LoopProblem problem;
-  problem.space = map.track.space;
-  problem.keyframes = map.track.keyframes;
-  problem.T_world_keyframe = T_world_keyframe;
-  problem.submap = map.submap_of_keyframe;
-  problem.covariance = [&covariance](int a, int b) { return covariance.relative(a, b); };
-  // What is known this well the next round's overlap registers without a search.
-  problem.already_tied = [&problem](int a, int b) {
-    if (std::abs(a - b) <= kVisitGap) return true;
-    const auto known = problem.covariance(a, b);
-    return known && known->topLeftCorner<3, 3>().trace() < kTied_m * kTied_m &&
-           known->bottomRightCorner<3, 3>().trace() < kTied_rad * kTied_rad;
-  };
-  problem.observations = &file;
-  std::vector<LoopCandidate> candidates = search_loops(problem, run);
-  reject_again(candidates, map.loops, T_world_keyframe);
-  return consistent_loops(std::move(candidates), graph);
-}
-
-std::vector<Constraint> with_loops(std::vector<Constraint> constraints,
-                                   std::span<const LoopCandidate> candidates) {
-  for (const LoopCandidate& c : candidates)
-    if (is_closure(c.verdict)) constraints.push_back(as_constraint(c));
-  return constraints;
-}
-
-void mark_outliers(std::vector<LoopCandidate>& candidates, std::span<const Constraint> outliers) {
-  for (LoopCandidate& candidate : candidates)
-    for (const Constraint& c : outliers)
-      if (c.kind == ConstraintKind::loop && c.a == candidate.a && c.b == candidate.b) {
-        candidate.verdict = LoopVerdict::outlier;
-        candidate.reason = "contradicts the other constraints in the robust optimization";
-      }
+/// The search knew the submaps of its round.
+void name_submaps(std::vector<LoopCandidate>& candidates, std::span<const int> submap_of_keyframe) {
+  for (LoopCandidate& candidate : candidates) {
+    candidate.submap_a = submap_of_keyframe[static_cast<size_t>(candidate.a)];
+    candidate.submap_b = submap_of_keyframe[static_cast<size_t>(candidate.b)];
+  }
 }
 
 /// New loop closures change what overlaps: the next round starts from the poses that they give.
 void take_loops(MapFile& file, const HybridMap& map, std::vector<LoopCandidate> candidates,
                 const std::string& stage, const Run& run) {
   const RobustSolution solution =
-      solve_robustly(map.track.space, keyframe_poses(map), with_loops(map.constraints, candidates),
-                     map.sightings, run);
+      solve_robustly(map.track.space, keyframe_poses(map),
+                     with_closures(map.constraints, candidates), map.sightings, run);
   mark_outliers(candidates, solution.outliers);
   candidates = join_candidates(map.loops, std::move(candidates));
   StageWriter writer = file.begin(stage);
@@ -158,6 +106,7 @@ void refine(MapFile& file, HybridMap map, std::vector<LoopCandidate> candidates,
   const bool settled = last_round || move.is_settled();
   MapSolution solution = file.load_solution();
   candidates = join_candidates(map.loops, std::move(candidates));
+  name_submaps(candidates, map.submap_of_keyframe);
   if (settled) result = refine_settled(map, result.report, solution.division, run);
   graph::PoseGraph all = graph_of_all(map.track, result.poses, map.constraints, map.sightings);
   all.points = result.points;
@@ -180,11 +129,13 @@ void close_loops(MapFile& file, const std::string& stage, bool last_round, const
   std::vector<LoopCandidate> candidates;
   // A loop that is found in the last round could not be made part of the submaps any more.
   // Landmarks are their own loop closures.
-  if (!last_round && map.sightings.empty())
-    candidates = find_loops(map, keyframe_poses(map), file, run);
-  const bool found = std::any_of(candidates.begin(), candidates.end(),
-                                 [](const LoopCandidate& c) { return is_closure(c.verdict); });
-  if (found) return take_loops(file, map, std::move(candidates), stage, run);
+  if (!last_round && map.sightings.empty()) {
+    const std::vector<Pose> T_world_keyframe = keyframe_poses(map);
+    const LoopSearch search = {map.track, T_world_keyframe, map.constraints, map.submap_of_keyframe,
+                               map.loops};
+    candidates = find_loops(search, file, run);
+  }
+  if (has_closure(candidates)) return take_loops(file, map, std::move(candidates), stage, run);
   refine(file, map, std::move(candidates), stage, last_round, run);
 }
 

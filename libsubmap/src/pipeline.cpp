@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hmt/submap/pipeline.hpp"
 
+#include <sys/resource.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -20,10 +21,18 @@ namespace {
 // Bound on the rounds for a log on which loops are still found late.
 constexpr int kMaxRounds = 5;
 
+/// The largest resident set of this process so far.
+size_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<size_t>(usage.ru_maxrss) << 10;
+}
+
 /// The stages of one run: skips what the file already has, times the rest.
 class Stages {
  public:
-  Stages(const MapFile& file, const Run& run) : file_(file), run_(run) {}
+  Stages(const MapFile& file, const std::optional<size_t>& max_memory_bytes, const Run& run)
+      : file_(file), max_memory_bytes_(max_memory_bytes), run_(run) {}
 
   template <typename Work>
   void operator()(const std::string& stage, Work&& work) {
@@ -33,14 +42,35 @@ class Stages {
     work(stage);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     times_.push_back({stage, taken.count()});
+    watch_memory(stage);
   }
   const std::vector<StageTime>& times() const { return times_; }
 
  private:
+  /// Says once that the bound does not hold.
+  void watch_memory(const std::string& stage) {
+    const size_t taken = peak_memory_bytes();
+    if (warned_ || !max_memory_bytes_ || taken <= *max_memory_bytes_) return;
+    warned_ = true;
+    run_.log_warning("up to stage " + stage + " " + std::to_string(taken >> 20) +
+                     " MB were taken, more than the " + std::to_string(*max_memory_bytes_ >> 20) +
+                     " MB that were allowed: of these only caches can be made smaller");
+  }
+
   const MapFile& file_;
+  std::optional<size_t> max_memory_bytes_;
   const Run& run_;
   std::vector<StageTime> times_;
+  bool warned_ = false;
 };
+
+void check(const SectionOptions& options) {
+  for (const auto& [name, value] :
+       {std::pair{"most_at_once", options.most_at_once}, std::pair{"keyframes", options.keyframes}})
+    if (value < 1 || value > 1000000)
+      throw InputError(std::string("sections: ") + name + " is " + std::to_string(value) +
+                       ", must be in [1, 1000000]");
+}
 
 void improve(MapFile& file, const Track& track, int round, const Options& options, const Run& run,
              Stages& stages) {
@@ -79,11 +109,26 @@ void build_octrees(MapFile& file, const Options& options, const Run& run) {
   }
 }
 
+/// Gives the caches of observations and surfaces what the bound allows them.
+Options with_caches(MapFile& file, Options options) {
+  if (options.max_memory_bytes) {
+    const size_t caches = *options.max_memory_bytes / 10;
+    file.set_cache_bytes(caches / 3 * 2);
+    options.local.surface_cache_bytes = caches / 3;
+  }
+  return options;
+}
+
 }  // namespace
 
-std::vector<StageTime> continue_run(MapFile& file, const Options& options, const Run& run) {
-  Stages stages(file, run);
-  const Track track = file.load_track();
+std::vector<StageTime> continue_run(MapFile& file, const Options& given, const Run& run) {
+  const Options options = with_caches(file, given);
+  Stages stages(file, options.max_memory_bytes, run);
+  Track track = file.load_track();
+  for (int section = 1; file.load_estimate().size() < track.keyframes.size(); ++section)
+    stages("section" + std::to_string(section), [&](const std::string& stage) {
+      track = add_section(file, track, stage, options, run);
+    });
   for (int round = 1; !file.finished(kSettled); ++round)
     improve(file, track, round, options, run, stages);
   if (!file.load_sightings().empty())
@@ -98,6 +143,7 @@ std::vector<StageTime> continue_run(MapFile& file, const Options& options, const
 
 BuildResult build_map(const std::filesystem::path& log, const std::filesystem::path& map,
                       const Options& options, MapFile::Existing existing, const Run& run) {
+  check(options.sections);
   MapOrigin origin;
   origin.log_path = log.string();
   origin.log_digest = log_digest(log);
@@ -107,7 +153,8 @@ BuildResult build_map(const std::filesystem::path& log, const std::filesystem::p
   origin.program_version = HMTMAP_VERSION;
   BuildResult result{MapFile::open_for_run(map, origin, existing), {}};
   MapFile& file = result.file;
-  Stages stages(file, run);
+  // The peak of the track is still there when the next stage ends.
+  Stages stages(file, std::nullopt, run);
   stages("track",
          [&](const std::string& stage) { read_and_track(file, stage, log, options, run); });
   result.times = stages.times();

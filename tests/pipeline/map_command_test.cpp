@@ -12,6 +12,7 @@ namespace hmt::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// Every file below a folder with its bytes.
 std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
@@ -53,6 +54,17 @@ class MapCommand : public testing::Test {
 TEST_F(MapCommand, GivesTheSameBytesOnTwoThreads) {
   ASSERT_EQ(run_hmtmap("map " + path("log") + " --threads 2 -o " + path("two.hmt")).code, 0);
   expect_same_export("two.hmt", "two");
+}
+
+TEST_F(MapCommand, TakesLittleMemoryAndSaysWhereTheMapNeedsMore) {
+  const auto small = run_hmtmap("map " + path("log") + " --max-memory 2M -o " + path("small.hmt"));
+  ASSERT_EQ(small.code, 0);
+  EXPECT_THAT(small.err, HasSubstr("more than the 2 MB that were allowed"));
+  expect_same_export("small.hmt", "small");
+  const auto large = run_hmtmap("map " + path("log") + " --max-memory 2G -o " + path("large.hmt"));
+  ASSERT_EQ(large.code, 0);
+  EXPECT_THAT(large.err, Not(HasSubstr("allowed")));
+  EXPECT_EQ(run_hmtmap("map " + path("log") + " --max-memory much -o " + path("a.hmt")).code, 2);
 }
 
 TEST_F(MapCommand, GoesOnAfterAKillAndEndsWithTheSameMap) {

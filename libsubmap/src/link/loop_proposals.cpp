@@ -13,9 +13,8 @@
 namespace hmt::submap {
 namespace {
 
-/// Travel between places. Maps overlap by half; each place is queried by several neighbors.
+/// Travel between places that make maps, which overlap by half.
 constexpr double kMapSpacingM = 4.0;
-constexpr double kQuerySpacingM = 2.0;
 /// Robots this close to each other see the same surfaces.
 constexpr double kMeetM = 5.0;
 /// chi2 of two degrees of freedom at 99.7 %, as a distance.
@@ -49,10 +48,11 @@ struct Place {
   Eigen::Vector3d t_world = Eigen::Vector3d::Zero();
 };
 
-std::vector<Place> places(const LoopProblem& problem, std::span<const double> path_m,
+/// From keyframe `first` on.
+std::vector<Place> places(const LoopProblem& problem, std::span<const double> path_m, int first,
                           double spacing_m, const std::function<int(int)>& limit, int threads) {
   std::vector<Place> found;
-  for (int k = 0; k < static_cast<int>(path_m.size()); ++k) {
+  for (int k = first; k < static_cast<int>(path_m.size()); ++k) {
     const auto i = static_cast<size_t>(k);
     if (!found.empty() &&
         path_m[i] - path_m[static_cast<size_t>(found.back().keyframe)] < spacing_m)
@@ -168,10 +168,10 @@ std::vector<LoopProposal> propose_loops(const LoopProblem& problem, std::span<co
                                         int threads) {
   const std::vector<Place> maps = without_repetitions(
       problem, places(
-                   problem, path_m, kMapSpacingM,
+                   problem, path_m, 0, kMapSpacingM,
                    [&](int k) { return patch_range(path_m, k, kMapReachM).second; }, threads));
   const std::vector<Place> queries = places(
-      problem, path_m, kQuerySpacingM,
+      problem, path_m, problem.first_query, problem.query_spacing_m,
       [&](int k) { return patch_range(path_m, k, kQueryReachM).first; }, threads);
   std::vector<std::vector<LoopProposal>> of_query(queries.size());
   for_each_index(0, queries.size(), threads, [&](size_t i) {

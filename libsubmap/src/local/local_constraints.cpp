@@ -153,7 +153,7 @@ std::vector<Constraint> register_overlapping(
     const LocalConstraintOptions& options, const Run& run) {
   const std::vector<std::pair<int, int>> pairs =
       pairs_to_register(overlap, options.min_overlap, known);
-  const SurfaceStore surfaces(observations);
+  const SurfaceStore surfaces(observations, options.surface_cache_bytes);
   const auto surface_of = [&](int k) {
     return surfaces.load(keyframes[static_cast<size_t>(k)].observation);
   };

@@ -181,6 +181,10 @@ std::string MapFile::Impl::read_observation(int64_t index, Observation& observat
   return frame;
 }
 
+void MapFile::set_cache_bytes(size_t bytes) {
+  impl_->cache.set_most_bytes(bytes);
+}
+
 std::shared_ptr<const Observation> MapFile::load(int64_t index) const {
   if (auto cached = impl_->cache.find(index)) return cached;
   auto observation = std::make_shared<Observation>();

@@ -16,8 +16,7 @@ constexpr int kObservationDigestColumn = 9;
 /// Table submaps: id, chi2, degrees of freedom, counts of keyframes and constraints, digest.
 constexpr int kSubmapDigestColumn = 5;
 
-/// What the recently used observations may hold: a whole log of a few thousand planar scans, or
-/// some dozen large clouds.
+/// What the recently used observations may hold unless a run sets it.
 constexpr size_t kCacheBytes = size_t{64} << 20;
 
 /// Bytes that an observation takes.

@@ -19,6 +19,12 @@ class RecentlyUsed {
  public:
   explicit RecentlyUsed(size_t most_bytes) : most_bytes_(most_bytes) {}
 
+  void set_most_bytes(size_t most_bytes) {
+    const std::lock_guard lock(mutex_);
+    most_bytes_ = most_bytes;
+    drop_oldest();
+  }
+
   /// Null where it is not held.
   std::shared_ptr<const Value> find(int64_t key) {
     const std::lock_guard lock(mutex_);
@@ -35,6 +41,12 @@ class RecentlyUsed {
     entries_.push_front({key, std::move(value), bytes});
     by_key_[key] = entries_.begin();
     bytes_ += bytes;
+    drop_oldest();
+  }
+
+ private:
+  /// Down to the bound; the last one stays. With the mutex held.
+  void drop_oldest() {
     while (bytes_ > most_bytes_ && entries_.size() > 1) {
       bytes_ -= entries_.back().bytes;
       by_key_.erase(entries_.back().key);
@@ -42,7 +54,6 @@ class RecentlyUsed {
     }
   }
 
- private:
   struct Entry {
     int64_t key = 0;
     std::shared_ptr<const Value> value;

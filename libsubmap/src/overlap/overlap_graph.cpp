@@ -11,6 +11,7 @@
 #include "common_share.hpp"
 #include "count_matches.hpp"
 #include "hmt/submap/overlap/overlap.hpp"
+#include "keyframe_blocks.hpp"
 #include "keyframe_space.hpp"
 #include "match_landmarks.hpp"
 #include "packed_covariance.hpp"
@@ -24,21 +25,6 @@ size_t at(int i) {
   return static_cast<size_t>(i);
 }
 
-// Two blocks of consecutive keyframes are held at a time, so that memory does not grow with the
-// points of the log: some 50 MB for the points and 25 MB for the pairs by these limits. Larger
-// blocks would prepare keyframes less often, but compare more with each other that show the same.
-constexpr int kBlockKeyframes = 512;
-constexpr double kBlockPoints = 1e6;
-
-struct Block {
-  int begin = 0;
-  int end = 0;
-
-  int size() const { return end - begin; }
-};
-
-/// Upper bounds of the matches of one keyframe, for each sensor.
-using KeyframeBounds = std::vector<std::vector<MatchBound>>;
 using BlockSpace = std::vector<KeyframeSpace>;
 
 /// Two keyframes that may overlap, a < b.
@@ -50,21 +36,24 @@ struct Pair {
 
 class OverlapGraphBuilder {
  public:
-  OverlapGraphBuilder(const KeyframeSpaceSource& source, const PairCovariance& covariance,
-                      const OverlapOptions& options, const Run& run)
+  OverlapGraphBuilder(const KeyframeSpaceSource& source, int first,
+                      const PairCovariance& covariance, const OverlapOptions& options,
+                      const Run& run)
       : source_(source),
+        first_(first),
         covariance_(covariance),
         options_(options),
         run_(run),
         arena_(std::max(1, run.threads)),
         references_(source.num_keyframes()) {}
 
-  graph::WeightedGraph build() {
+  SectionOverlap build() {
     find_sensors();
     index_sensors();
     std::vector<graph::Arc> arcs;
-    const std::vector<Block> all = blocks();
+    const std::vector<Block> all = blocks_of(index_, num_keyframes(), first_);
     for (const Block& b : all) {
+      if (b.begin < first_) continue;
       const size_t before = arcs.size();
       const BlockSpace space_b = prepare(b, b);
       const std::vector<KeyframeBounds> bounds_b = bounds(b, b);
@@ -75,27 +64,11 @@ class OverlapGraphBuilder {
       references_.thin(b.begin, b.end, std::span(arcs).subspan(before));
       run_.report({"overlap", static_cast<double>(b.end), static_cast<double>(num_keyframes())});
     }
-    return {num_keyframes(), arcs};
+    return {{num_keyframes(), arcs}, std::move(references_).take()};
   }
 
  private:
   int num_keyframes() const { return source_.num_keyframes(); }
-
-  std::vector<Block> blocks() const {
-    std::vector<Block> blocks;
-    double points = 0;
-    for (int keyframe = 0; keyframe < num_keyframes(); ++keyframe) {
-      double own = 0;
-      for (const SensorIndex& index : index_) own += index.memory(keyframe);
-      points += own;
-      if (blocks.empty() || blocks.back().size() == kBlockKeyframes || points > kBlockPoints) {
-        blocks.push_back({keyframe, keyframe});
-        points = own;
-      }
-      blocks.back().end = keyframe + 1;
-    }
-    return blocks;
-  }
 
   /// Calls function(0) to function(count - 1); each writes its own slot.
   template <typename Function>
@@ -167,40 +140,11 @@ class OverlapGraphBuilder {
     return bounds;
   }
 
-  static bool meet(const std::vector<KeyframeBounds>& bounds, const Block& block) {
-    for (const KeyframeBounds& keyframe : bounds) {
-      for (const auto& sensor : keyframe) {
-        for (const MatchBound& bound : sensor) {
-          if (bound.begin < block.end && block.begin < bound.end) return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  /// One number for each keyframe of the bounds, each sensor and each keyframe of the block.
-  std::vector<int> table(const std::vector<KeyframeBounds>& bounds, const Block& block) const {
-    const size_t width = at(block.size());
-    std::vector<int> table(bounds.size() * sensors_.size() * width, 0);
-    int* row = table.data();
-    for (const KeyframeBounds& keyframe : bounds) {
-      for (const auto& sensor : keyframe) {
-        for (const MatchBound& bound : sensor) {
-          const int begin = std::max(bound.begin, block.begin),
-                    end = std::min(bound.end, block.end);
-          if (begin < end)
-            std::fill(row + begin - block.begin, row + end - block.begin, bound.matches);
-        }
-        row += width;
-      }
-    }
-    return table;
-  }
-
   /// Pairs a < b whose overlap can reach the least one that counts, ordered by (a, b).
   std::vector<Pair> candidates(const Block& a, const Block& b,
                                const std::vector<KeyframeBounds>& bounds_b) {
-    const std::vector<int> of_a = table(bounds(a, b), b), of_b = table(bounds_b, a);
+    const std::vector<int> of_a = table(bounds(a, b), sensors_.size(), b),
+                           of_b = table(bounds_b, sensors_.size(), a);
     std::vector<Pair> pairs;
     for (int i = a.begin; i < a.end; ++i) {
       if (!is_compared(i, b)) continue;
@@ -295,6 +239,7 @@ class OverlapGraphBuilder {
   }
 
   const KeyframeSpaceSource& source_;
+  int first_;
   const PairCovariance& covariance_;
   const OverlapOptions& options_;
   const Run& run_;
@@ -312,6 +257,15 @@ graph::WeightedGraph overlap_graph(std::span<const Keyframe> keyframes,
                                    const PairCovariance& covariance,
                                    const ObservationStore& observations,
                                    const OverlapOptions& options, const Run& run) {
+  return overlap_of_section(keyframes, T_world_keyframe, 0, covariance, observations, options, run)
+      .graph;
+}
+
+SectionOverlap overlap_of_section(std::span<const Keyframe> keyframes,
+                                  std::span<const Pose> T_world_keyframe, int first,
+                                  const PairCovariance& covariance,
+                                  const ObservationStore& observations,
+                                  const OverlapOptions& options, const Run& run) {
   check(options);
   if (keyframes.size() != T_world_keyframe.size()) {
     throw InputError("overlap_graph: " + std::to_string(keyframes.size()) + " keyframes, but " +
@@ -319,7 +273,7 @@ graph::WeightedGraph overlap_graph(std::span<const Keyframe> keyframes,
   }
   for (const Pose& pose : T_world_keyframe) check_finite(pose);
   const KeyframeSpaceSource source(keyframes, T_world_keyframe, observations, options);
-  return OverlapGraphBuilder(source, covariance, options, run).build();
+  return OverlapGraphBuilder(source, first, covariance, options, run).build();
 }
 
 }  // namespace hmt::submap

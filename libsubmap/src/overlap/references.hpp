@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "hmt/graph/weighted_graph.hpp"
@@ -31,6 +32,8 @@ class References {
   /// references where enough of those before `begin` overlap them by half or more.
   /// `arcs`: their arcs, a < b.
   void thin(int begin, int end, std::span<const graph::Arc> arcs);
+  /// One flag a keyframe.
+  std::vector<char> take() && { return std::move(is_reference_); }
 
  private:
   std::vector<char> is_reference_;

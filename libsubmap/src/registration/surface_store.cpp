@@ -7,17 +7,14 @@
 namespace hmt::submap {
 namespace {
 
-// Holds a thousand planar scans, or some dozen large clouds.
-constexpr size_t kCacheBytes = size_t{32} << 20;
-
 size_t size_in_memory(const Surface& surface) {
   return sizeof(Surface) + surface.size() * (2 * sizeof(Eigen::Vector3d) + 3 * sizeof(double));
 }
 
 }  // namespace
 
-SurfaceStore::SurfaceStore(const ObservationStore& observations)
-    : observations_(observations), cache_(kCacheBytes) {}
+SurfaceStore::SurfaceStore(const ObservationStore& observations, size_t cache_bytes)
+    : observations_(observations), cache_(cache_bytes) {}
 
 std::shared_ptr<const Surface> SurfaceStore::load(int64_t observation) const {
   if (auto cached = cache_.find(observation)) return cached;

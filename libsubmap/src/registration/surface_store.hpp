@@ -16,8 +16,8 @@ namespace hmt::submap {
 /// call from many threads at once.
 class SurfaceStore {
  public:
-  /// `observations` must outlive the store.
-  explicit SurfaceStore(const ObservationStore& observations);
+  /// `observations` must outlive the store. Keeps surfaces of up to so many bytes.
+  SurfaceStore(const ObservationStore& observations, size_t cache_bytes);
   /// Throws InputError if the observation is not there or damaged.
   std::shared_ptr<const Surface> load(int64_t observation) const;
 

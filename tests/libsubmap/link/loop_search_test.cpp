@@ -28,13 +28,16 @@ PairCovariance growing(const Drive& drive, double m_per_m, double rad_per_m) {
 }
 
 std::vector<LoopCandidate> search(const Drive& drive, const PairCovariance& covariance,
-                                  int threads = 2, Space space = Space::se2) {
+                                  int threads = 2, Space space = Space::se2, int first_query = 0,
+                                  double query_spacing_m = 2) {
   const ObservationVector store(drive.observations);
   LoopProblem problem;
   problem.space = space;
   problem.keyframes = drive.keyframes;
   problem.T_world_keyframe = drive.estimate;
   problem.submap = drive.submap;
+  problem.first_query = first_query;
+  problem.query_spacing_m = query_spacing_m;
   problem.already_tied = [](int, int) { return false; };
   problem.covariance = covariance;
   problem.observations = &store;
@@ -82,6 +85,20 @@ TEST(SearchLoops, ClosesASecondRoundAndNothingWrong) {
     EXPECT_LT(error.translation.norm(), 0.15) << c.a << " " << c.b;
     EXPECT_LT(std::abs(error.yaw_rad()), 0.03) << c.a << " " << c.b;
   }
+}
+
+TEST(SearchLoops, SearchesForPlacesFromAKeyframeOnAsFarApartAsItIsTold) {
+  const Drive drive = test::drive(ring(), kTwiceAround, {0.005, 0.0008}, {.noise_m = 0.01});
+  const PairCovariance covariance = growing(drive, 0.015, 0.002);
+  const auto all = search(drive, covariance);
+  const int first = all[all.size() / 2].b;
+  const auto later = search(drive, covariance, 1, Space::se2, first);
+  const auto few = search(drive, covariance, 1, Space::se2, 0, 8);
+  EXPECT_FALSE(later.empty());
+  EXPECT_LT(later.size(), all.size());
+  for (const LoopCandidate& c : later) EXPECT_GE(c.b, first);
+  EXPECT_FALSE(few.empty());
+  EXPECT_LT(2 * few.size(), all.size());
 }
 
 TEST(SearchLoops, IsTheSameOnAnyNumberOfThreads) {

@@ -60,6 +60,19 @@ TEST(MapFile, GivesBackEveryRecordExactly) {
   EXPECT_EQ(*file.load(2), sample_observation(2));
 }
 
+TEST(MapFile, KeepsNoMoreObservationsThanItsCacheHolds) {
+  const TemporaryFolder folder;
+  write_sample_map(folder / "a.hmt");
+  MapFile file = MapFile::open(folder / "a.hmt");
+  const auto first = file.load(0);
+  file.load(1);
+  EXPECT_EQ(file.load(0), first);
+  file.set_cache_bytes(1);
+  file.load(1);
+  EXPECT_NE(file.load(0), first);
+  EXPECT_EQ(*file.load(0), *first);
+}
+
 TEST(MapFile, KeepsTheSignOfAZero) {
   const TemporaryFolder folder;
   write_sample_map(folder / "a.hmt");

@@ -252,6 +252,35 @@ TEST(OverlapGraph, AsksOnceForEachPairThatCanMeetWithTheSmallerIdFirst) {
   EXPECT_GE(asked.size(), 59U);
 }
 
+TEST(OverlapGraph, GivesTheArcsOfASectionAndWhatInItIsNew) {
+  // The same two places 40 times: one place, then the other, then again the first one.
+  Tour tour;
+  const std::vector<Wall> walls = room(-5, -3, 15, 3);
+  for (int i = 0; i < 240; ++i) {
+    const Pose T = Pose::planar(i >= 40 && i < 200 ? 100 + 0.5 * i : 0.01 * (i % 40), 0, 0);
+    tour.add(T, {scan_walls(walls, i >= 40 && i < 200 ? Pose{} : T, 61)});
+  }
+  const ObservationVector observations(tour.observations);
+  const auto section = [&](int first) {
+    return overlap_of_section(tour.keyframes, tour.T_world_keyframe, first, certain, observations,
+                              {}, {});
+  };
+  const WeightedGraph whole = tour.overlap(certain);
+  const SectionOverlap last = section(200);
+  size_t expected = 0;
+  for (const graph::Arc& arc : whole.arcs()) {
+    if (arc.b < 200) continue;
+    ++expected;
+    EXPECT_EQ(last.graph.weight(arc.a, arc.b), arc.weight) << arc.a << " " << arc.b;
+  }
+  ASSERT_GT(expected, 40u * 40u);
+  EXPECT_EQ(last.graph.arcs().size(), expected);
+  for (int k = 0; k < 240; ++k)
+    EXPECT_EQ(last.is_reference[static_cast<size_t>(k)] != 0, k < 200) << k;
+  // Within one block none is left out, and 200 is the first of one.
+  for (const char is_reference : section(0).is_reference) EXPECT_NE(is_reference, 0);
+}
+
 TEST(OverlapGraph, TakesNoneOneAndEmptyKeyframes) {
   EXPECT_EQ(Tour{}.overlap(certain).num_nodes(), 0);
   EXPECT_EQ(along_a_wall(1, 1.0).overlap(certain).num_nodes(), 1);

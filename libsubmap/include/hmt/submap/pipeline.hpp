@@ -17,16 +17,32 @@
 
 namespace hmt::submap {
 
+/// Sections that a long log is gone through in. Memory follows them and the places that the robot
+/// saw, not the log; smaller ones are re-estimated with what was known more often.
+struct SectionOptions {
+  /// Logs of up to so many keyframes are taken as a whole, [1, 1000000]. As many hold two
+  /// kilometres of new places, more than the loops of most logs.
+  int most_at_once = 5000;
+  /// Keyframes of a section, [1, 1000000]: some rounds through a building, over which the robot
+  /// drifts so little that the loop search finds back.
+  int keyframes = 2000;
+};
+
 /// Options of the whole run, one struct a stage.
 struct Options {
   LogOptions log;
   TrackOptions track;
   OverlapOptions overlap;
   LocalConstraintOptions local;
+  SectionOptions sections;
   SubmapPartitionOptions partition;
   /// Edge of the smallest cells of the OctoMaps, metres, [0.005, 10]; nothing: see
   /// octree_options().
   std::optional<double> octree_resolution_m;
+  /// Bytes that the run may take. Observations and surfaces that are kept to be used again take up
+  /// to a tenth of them, 96 MB where no bound is given; the rest follows the map, and a warning
+  /// says where that is more. The same map with any bound, so it is no part of to_json.
+  std::optional<size_t> max_memory_bytes;
 };
 
 /// Without a resolution, 5 cm for planar logs and 20 cm in space, where beams reach far and meet
@@ -53,10 +69,11 @@ struct BuildResult {
 
 /// Makes a hybrid map of a log, or goes on where an earlier run with the same log and options was
 /// stopped:
-///   read and track -> (overlap -> submaps -> loop closures) until the poses stand -> OctoMaps
+///   read and track -> sections, of a long log -> (overlap -> submaps -> loop closures) until the
+///   poses stand -> OctoMaps
 /// Every arrow commits its result to the map file. Same map for any number of threads.
-/// Throws InputError for a log or a map file that cannot be used, Interrupted if Run::stop asks for
-/// it.
+/// Throws InputError for options out of range and for a log or a map file that cannot be used,
+/// Interrupted if Run::stop asks for it.
 BuildResult build_map(const std::filesystem::path& log, const std::filesystem::path& map,
                       const Options& options, MapFile::Existing existing, const Run& run);
 

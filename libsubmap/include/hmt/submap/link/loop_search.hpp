@@ -69,6 +69,8 @@ struct LoopProblem {
   std::span<const Keyframe> keyframes;
   std::span<const Pose> T_world_keyframe;  ///< best current estimate
   std::span<const int> submap;             ///< of each keyframe
+  int first_query = 0;         ///< keyframes before this one are not searched for, only in
+  double query_spacing_m = 2;  ///< travel between places that are searched for
   /// True where the two keyframes are already tied closely enough that nothing is to be learnt.
   std::function<bool(int a, int b)> already_tied;
   PairCovariance covariance;

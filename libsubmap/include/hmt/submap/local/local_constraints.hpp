@@ -16,6 +16,9 @@ namespace hmt::submap {
 struct LocalConstraintOptions {
   /// Keyframe pairs with less overlap are not registered, (0, 1].
   double min_overlap = 0.2;
+  /// Surfaces that are kept for the next registration take up to so many bytes: a thousand planar
+  /// scans, or some dozen large clouds. Without effect on the result.
+  size_t surface_cache_bytes = size_t{32} << 20;
 };
 
 /// Registers overlapping keyframes onto each other, at the given poses. Of each keyframe's

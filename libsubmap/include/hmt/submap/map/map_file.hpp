@@ -83,9 +83,11 @@ class MapFile : public ObservationStore {
   /// must outlive it and stay where it is.
   StageWriter begin(const std::string& stage);
 
-  /// From the file, through a cache of the recently used ones (64 MB).
+  /// From the file, through a cache of the recently used ones (64 MB unless set_cache_bytes()).
   std::shared_ptr<const Observation> load(int64_t index) const override;
   int64_t num_observations() const;
+  /// What the observations kept in memory may take; the one last read stays in any case.
+  void set_cache_bytes(size_t bytes);
 
   /// Each throws InputError where its stage has not been finished.
   Track load_track() const;

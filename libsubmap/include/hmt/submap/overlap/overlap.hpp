@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "hmt/graph/weighted_graph.hpp"
 #include "hmt/submap/observation/observation_store.hpp"
@@ -68,5 +69,20 @@ graph::WeightedGraph overlap_graph(std::span<const Keyframe> keyframes,
                                    const PairCovariance& covariance,
                                    const ObservationStore& observations,
                                    const OverlapOptions& options, const Run& run);
+
+/// What a section of the log shows beside what came before it.
+struct SectionOverlap {
+  graph::WeightedGraph graph;      ///< all keyframes; arcs with at least one end in the section
+  std::vector<char> is_reference;  ///< one a keyframe; 0 where others show what it shows
+};
+
+/// The overlap of the keyframes from `first` on with each other and with those before, as
+/// overlap_graph, which is that of a section that begins with the first keyframe. Those before
+/// `first` are references, and their arcs with each other are left out.
+SectionOverlap overlap_of_section(std::span<const Keyframe> keyframes,
+                                  std::span<const Pose> T_world_keyframe, int first,
+                                  const PairCovariance& covariance,
+                                  const ObservationStore& observations,
+                                  const OverlapOptions& options, const Run& run);
 
 }  // namespace hmt::submap
