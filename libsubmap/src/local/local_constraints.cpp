@@ -104,6 +104,25 @@ double mahalanobis_squared(const Vector6d& difference, const Matrix6d& informati
   return difference.dot(both * difference);
 }
 
+/// Clouds of one visit err alike against each other: they sample the same rough ground at the same
+/// bearings, so that registrations in a row bend the way the same way, and the tracker has used
+/// each of them already. What a cloud tells of its visit is shared among the registrations there
+/// that it takes part in, or their common error would outweigh an odometry that is held upright.
+void share_visits(std::span<const Constraint> known, size_t keyframes,
+                  std::vector<Constraint>& found) {
+  std::vector<int> uses(keyframes, 1);
+  const auto count = [&](const Constraint& c) {
+    if (c.b - c.a > kVisitGap) return;
+    ++uses[static_cast<size_t>(c.a)];
+    ++uses[static_cast<size_t>(c.b)];
+  };
+  for (const Constraint& c : known) count(c);
+  for (const Constraint& c : found) count(c);
+  for (Constraint& c : found)
+    if (c.b - c.a <= kVisitGap)
+      c.information /= std::max(uses[static_cast<size_t>(c.a)], uses[static_cast<size_t>(c.b)]);
+}
+
 class PairRegistration {
  public:
   PairRegistration(Space space, std::span<const Keyframe> keyframes,
@@ -180,6 +199,7 @@ std::vector<Constraint> register_overlapping(
   std::vector<Constraint> constraints;
   for (const auto& slot : slots)
     if (slot) constraints.push_back(*slot);
+  if (space == Space::se3) share_visits(known, keyframes.size(), constraints);
   return constraints;
 }
 

@@ -38,29 +38,31 @@ LocalFit fit_plane(const std::vector<Eigen::Vector3d>& points, const PointGrid& 
 }  // namespace
 
 std::vector<PointNormal> cloud_normals(const std::vector<Eigen::Vector3d>& points_sensor,
-                                       double beam_step_rad) {
+                                       double beam_step_rad, size_t every) {
   const PointGrid grid(points_sensor, kCell_m);
   std::vector<LocalFit> fits;
   std::vector<double> radii_m;
-  for (size_t i = 0; i < points_sensor.size(); ++i) {
+  for (size_t i = 0; i < points_sensor.size(); i += every) {
     const double step_m = points_sensor[i].norm() * beam_step_rad;
     radii_m.push_back(std::clamp(kRadiusSteps * step_m, kRadius_m, kLargestRadius_m));
-    fits.push_back(fit_plane(points_sensor, grid, i, radii_m[i]));
+    fits.push_back(fit_plane(points_sensor, grid, i, radii_m.back()));
   }
   const double noise_m = median_noise_m(fits, kPlaneParameters);
-  std::vector<PointNormal> normals(points_sensor.size());
-  for (size_t i = 0; i < normals.size(); ++i) {
-    normals[i].sigma_m = noise_m;
-    for (int k = 0; k < kNarrowings && fits[i].points > kPlaneParameters + 1 &&
-                    !is_smooth(fits[i], kPlaneParameters, noise_m);
-         ++k) {
-      radii_m[i] /= kNarrowing;
-      fits[i] = fit_plane(points_sensor, grid, i, radii_m[i]);
+  std::vector<PointNormal> normals(fits.size());
+  for (size_t k = 0; k < normals.size(); ++k) {
+    const size_t i = k * every;
+    normals[k].sigma_m = noise_m;
+    for (int n = 0; n < kNarrowings && fits[k].points > kPlaneParameters + 1 &&
+                    !is_smooth(fits[k], kPlaneParameters, noise_m);
+         ++n) {
+      radii_m[k] /= kNarrowing;
+      fits[k] = fit_plane(points_sensor, grid, i, radii_m[k]);
     }
-    if (is_smooth(fits[i], kPlaneParameters, noise_m))
-      normals[i] = normal_from_fit(fits[i], kPlaneParameters, noise_m, points_sensor[i], kFlattest);
+    if (is_smooth(fits[k], kPlaneParameters, noise_m))
+      normals[k] = normal_from_fit(fits[k], kPlaneParameters, noise_m, points_sensor[i], kFlattest);
     // Points spread evenly over the disc of the fit are about this far from each other.
-    normals[i].spacing_m = radii_m[i] / std::sqrt(std::max(1, fits[i].points));
+    const double points = std::max(1.0, fits[k].points / static_cast<double>(every));
+    normals[k].spacing_m = radii_m[k] / std::sqrt(points);
   }
   return normals;
 }

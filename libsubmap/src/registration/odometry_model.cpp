@@ -32,14 +32,6 @@ Motion motion_of(const Pose& step) {
   return {distance_m + kTurnLength_m * angle_rad, angle_rad + distance_m / kTurnLength_m / 10};
 }
 
-// Motion of each axis of the tangent.
-Vector6d by_axis(const Motion& motion) {
-  Vector6d amounts;
-  amounts << Eigen::Vector3d::Constant(motion.translation),
-      Eigen::Vector3d::Constant(motion.rotation);
-  return amounts;
-}
-
 }  // namespace
 
 void OdometryModel::Rate::add(double square, double more, double memory, double weight) {
@@ -49,8 +41,16 @@ void OdometryModel::Rate::add(double square, double more, double memory, double 
   seen += weight * more;
 }
 
+Vector6d OdometryModel::motion_by_axis(const Pose& step) {
+  const Motion motion = motion_of(step);
+  Vector6d amounts;
+  amounts << Eigen::Vector3d::Constant(motion.translation),
+      Eigen::Vector3d::Constant(motion.rotation);
+  return amounts;
+}
+
 Matrix6d OdometryModel::covariance(const Pose& step) const {
-  const Vector6d amounts = by_axis(motion_of(step));
+  const Vector6d amounts = motion_by_axis(step);
   Vector6d variances = Vector6d::Zero();
   for (Eigen::Index k = 0; k < 6; ++k)
     if (space_ == Space::se3 || k < 2 || k == 5) {
@@ -63,7 +63,7 @@ Matrix6d OdometryModel::covariance(const Pose& step) const {
 void OdometryModel::learn(const Pose& odometry_step, const Pose& measured_step,
                           const Vector6d& noise) {
   const bool rest = is_rest(odometry_step);
-  const Vector6d amounts = rest ? Vector6d(Vector6d::Ones()) : by_axis(motion_of(odometry_step));
+  const Vector6d amounts = rest ? Vector6d(Vector6d::Ones()) : motion_by_axis(odometry_step);
   const Vector6d known = covariance(odometry_step).diagonal();
   Vector6d squares = boxminus(measured_step, odometry_step).cwiseAbs2();
   if (space_ == Space::se2) squares.head<2>().setConstant(squares.head<2>().mean());

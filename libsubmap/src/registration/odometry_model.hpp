@@ -29,6 +29,8 @@ class OdometryModel {
   /// Learns from a step that registration measured. `noise`: variances of the measurement, which
   /// are taken out of the squared differences; an axis counts the less the noisier it is.
   void learn(const Pose& odometry_step, const Pose& measured_step, const Vector6d& noise);
+  /// What the variances of the six directions grow with in a step.
+  static Vector6d motion_by_axis(const Pose& step);
   /// Whether a step may be a motion at all, not a jump of a broken or restarted odometry.
   static bool is_motion(const Pose& step);
   /// Whether the odometry stood still.

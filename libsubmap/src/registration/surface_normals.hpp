@@ -19,8 +19,9 @@ struct PointNormal {
 std::vector<PointNormal> scan_normals(const std::vector<Eigen::Vector3d>& points_sensor,
                                       double beam_step_rad);
 
-/// Points of a cloud in any order.
+/// Points of a cloud in any order: the normals of the first and of every so-many-th after it, from
+/// all points around them.
 std::vector<PointNormal> cloud_normals(const std::vector<Eigen::Vector3d>& points_sensor,
-                                       double beam_step_rad);
+                                       double beam_step_rad, size_t every);
 
 }  // namespace hmt::submap

@@ -63,7 +63,8 @@ Tracker::Tracker(Space space, const TrackOptions& options)
 void Tracker::start(const Observation& observation, Surface surface) {
   T_track_latest_ = observation.T_odom_robot;
   add_keyframe(observation,
-               {T_track_latest_, diagonal_in(space_, kDefining, kDefining), true, T_track_latest_},
+               {T_track_latest_, diagonal_in(space_, kDefining, kDefining), true, T_track_latest_,
+                Vector6d::Zero()},
                std::move(surface));
 }
 
@@ -189,6 +190,9 @@ void Tracker::add_keyframe(const Observation& observation, const Estimate& estim
     by_odometry /= std::max(1.0, error.dot(by_odometry * error) / unknowns);
     track_.odometry.push_back({previous.id, previous.id + 1, ConstraintKind::odometry, T_a_b,
                                by_registration + by_odometry});
+    if (space_ == Space::se3)
+      chain_.push_back(
+          {T_keyframe_odometry_, T_a_b, estimate.information, estimate.pull, odometry_unbroken_});
     if (odometry_unbroken_ && space_ == Space::se3 && estimate.registered)
       keyframe_odometry_.learn(
           T_keyframe_odometry_, relative_pose(previous.T_track_robot, estimate.T_track_measured),
@@ -202,6 +206,19 @@ void Tracker::add_keyframe(const Observation& observation, const Estimate& estim
   T_keyframe_odometry_ = Pose{};
   information_keyframe_ = estimate.information;
   odometry_unbroken_ = true;
+}
+
+Track Tracker::take() {
+  const std::optional<std::vector<WeighedStep>> weighed = weigh_chain(chain_);
+  for (size_t k = 0; weighed && k < chain_.size(); ++k) {
+    Constraint& step = track_.odometry[k];
+    if (chain_[k].has_odometry) {
+      step.T_a_b = (*weighed)[k].T_a_b;
+      step.information = (*weighed)[k].information;
+    }
+    track_.keyframes[k + 1].T_track_robot = track_.keyframes[k].T_track_robot * step.T_a_b;
+  }
+  return std::move(track_);
 }
 
 }  // namespace hmt::submap

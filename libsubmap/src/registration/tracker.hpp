@@ -7,6 +7,7 @@
 #include "locate.hpp"
 #include "odometry_calibration.hpp"
 #include "odometry_model.hpp"
+#include "weigh_chain.hpp"
 
 namespace hmt::submap {
 
@@ -26,15 +27,16 @@ class Tracker {
   /// `surface`: what the observation saw.
   void add(const Observation& observation, Surface surface);
   const TrackCounts& counts() const { return counts_; }
-  /// Everything but the log report.
-  Track take() { return std::move(track_); }
+  /// Everything but the log report, at the end of the log.
+  Track take();
 
  private:
   struct Estimate {
     Pose T_track_robot;
     Matrix6d information = Matrix6d::Zero();  // of the registration alone
     bool registered = false;
-    Pose T_track_measured;  // what the surfaces alone say, without the prediction
+    Pose T_track_measured;             // what the surfaces alone say, without the prediction
+    Vector6d pull = Vector6d::Zero();  // information times (measured - estimate)
   };
 
   /// A step between two observations.
@@ -69,6 +71,7 @@ class Tracker {
   LocalMap map_;
   Track track_;
   TrackCounts counts_;
+  std::vector<ChainStep> chain_;  // in space, one a step between keyframes
 
   // The latest observation.
   double stamp_latest_s_ = 0;

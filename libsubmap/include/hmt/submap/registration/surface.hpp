@@ -27,7 +27,8 @@ struct Surface {
   bool operator==(const Surface&) const = default;
 };
 
-/// Points and normals of all readings of an observation. Points beyond the sensor's maximum are not
+/// Points and normals of all readings of an observation, of a cloud of more than 10000 points those
+/// of every so-many-th, at most as many. Points beyond the sensor's maximum are not
 /// there; an observation without points gives an empty surface.
 ///
 /// A planar scan takes the neighbors of a point along the beams, a cloud takes them within a
