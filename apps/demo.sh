@@ -20,13 +20,19 @@ install_packages "${build_packages[@]}"
 build hmtmap
 hmtmap=$build_dir/apps/hmtmap
 
-# run COMMAND...: shows the command; exit code 3 means done with losses, which hmtmap has told.
-run() {
+# try COMMAND...: shows the command; exit code 3 means done with losses, which hmtmap has told.
+try() {
   say "hmtmap ${*}"
   local code=0
   "$hmtmap" "$@" || code=$?
-  if ((code != 0 && code != 3)); then
-    say "failed with exit code $code; to start afresh: rm -r $out" >&2
+  ((code == 3)) || return "$code"
+}
+
+run() {
+  local code=0
+  try "$@" || code=$?
+  if ((code != 0)); then
+    say "failed with exit code $code" >&2
     exit "$code"
   fi
 }
@@ -42,7 +48,12 @@ else
   mkdir -p "$out"
 fi
 
-run map "$log" -o "$out/map.hmt"
+# What is there may be of another log of that name, or of an older version.
+if [[ -e $out/map.hmt ]] && ! try map "$log" -o "$out/map.hmt"; then
+  say "making it anew"
+  rm -f "$out/map.hmt" "$out/map.hmt-journal"
+fi
+if [[ ! -e $out/map.hmt ]]; then run map "$log" -o "$out/map.hmt"; fi
 run export "$out/map.hmt" -o "$out/export" --force
 say "done: map $out/map.hmt"
 say "look at $out/export: map.pgm (grid), trajectory.tum, partition.csv, topology.dot, submaps/"

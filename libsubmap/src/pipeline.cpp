@@ -13,6 +13,7 @@
 
 #include "continue_run.hpp"
 #include "hmt/submap/local/optimize_submap.hpp"
+#include "hmt/submap/log/log_reader.hpp"
 #include "stages.hpp"
 
 namespace hmt::submap {
@@ -119,6 +120,21 @@ Options with_caches(MapFile& file, Options options) {
   return options;
 }
 
+/// Reads the log into the map; where that fails, a map in which there is nothing is taken away.
+std::vector<StageTime> begin_run(MapFile& file, const std::filesystem::path& log,
+                                 const Options& options, const Run& run) {
+  // The peak of the track is still there when the next stage ends.
+  Stages stages(file, std::nullopt, run);
+  try {
+    stages("track",
+           [&](const std::string& stage) { read_and_track(file, stage, log, options, run); });
+  } catch (...) {
+    if (file.stages().empty()) MapFile::discard(std::move(file));
+    throw;
+  }
+  return stages.times();
+}
+
 }  // namespace
 
 std::vector<StageTime> continue_run(MapFile& file, const Options& given, const Run& run) {
@@ -151,14 +167,11 @@ BuildResult build_map(const std::filesystem::path& log, const std::filesystem::p
     origin.log_digest += log_digest(options.log.odometry_file);
   origin.options_json = to_json(options);
   origin.program_version = HMTMAP_VERSION;
+  // A log that cannot be read costs nobody the map that it was to replace.
+  if (existing == MapFile::Existing::replace) open_log(log, options.log);
   BuildResult result{MapFile::open_for_run(map, origin, existing), {}};
-  MapFile& file = result.file;
-  // The peak of the track is still there when the next stage ends.
-  Stages stages(file, std::nullopt, run);
-  stages("track",
-         [&](const std::string& stage) { read_and_track(file, stage, log, options, run); });
-  result.times = stages.times();
-  const std::vector<StageTime> rest = continue_run(file, options, run);
+  result.times = begin_run(result.file, log, options, run);
+  const std::vector<StageTime> rest = continue_run(result.file, options, run);
   result.times.insert(result.times.end(), rest.begin(), rest.end());
   return result;
 }

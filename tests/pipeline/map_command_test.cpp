@@ -117,7 +117,12 @@ TEST_F(MapCommand, RefusesWhatIsNotALog) {
     const CommandResult result = run_hmtmap("map " + path(name) + " -o " + path("never.hmt"));
     EXPECT_EQ(result.code, 1) << name;
     EXPECT_THAT(result.err, HasSubstr("error")) << name;
+    EXPECT_FALSE(std::filesystem::exists(path("never.hmt"))) << name;
   }
+  // Neither does it cost the map that it was to replace.
+  std::ofstream(path("old.hmt")) << "a map";
+  EXPECT_EQ(run_hmtmap("map " + path("junk") + " --force -o " + path("old.hmt")).code, 1);
+  EXPECT_EQ(file_text(path("old.hmt")), "a map");
 }
 
 TEST_F(MapCommand, MapsALogOfOneScanAndOneThatJumps) {

@@ -110,7 +110,9 @@ std::unique_ptr<LogReader> open_log(const fs::path& path, const LogOptions& opti
   const auto format =
       std::ranges::find_if(kFormats, [&](const Format& f) { return f.is(path, head); });
   if (format == kFormats.end())
-    throw InputError(path.string() + ": a folder without files of a known log format");
+    throw InputError(path.string() +
+                     ": a folder without files of a known log format; it must hold bags, clouds "
+                     "(pcd, ply, bin) or the files of MRCLAM itself, not in folders below");
   if (options.robot && format->open != open_mrclam)
     throw InputError(path.string() + ": holds one robot; --robot is for folders of several");
   return format->open(path, options);

@@ -123,6 +123,12 @@ MapFile MapFile::open_for_run(const fs::path& path, const MapOrigin& origin, Exi
   return MapFile(std::move(impl));
 }
 
+void MapFile::discard(MapFile file) {
+  const fs::path path = file.path();
+  file.impl_.reset();
+  remove_map(path);
+}
+
 MapFile MapFile::open_for_change(const fs::path& path) {
   require_file(path);
   auto impl = std::make_unique<Impl>(path, Database::Access::write);

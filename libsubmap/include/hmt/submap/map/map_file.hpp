@@ -65,6 +65,8 @@ class MapFile : public ObservationStore {
   /// Opens for a run: creates the file or goes on with it.
   static MapFile open_for_run(const std::filesystem::path& path, const MapOrigin& origin,
                               Existing existing);
+  /// Closes the map and deletes it.
+  static void discard(MapFile file);
   /// Opens a map that is there, to change it.
   static MapFile open_for_change(const std::filesystem::path& path);
   ~MapFile() override;
