@@ -28,6 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     attempt([&] { read_laser_scan({message, wire}, kind); });
   attempt([&] { read_odometry({message, wire}); });
   attempt([&] { read_transforms({message, wire}); });
+  attempt([&] { read_imu({message, wire}); });
   attempt([&] {
     for (const auto& p : read_cloud({message, wire}).cloud.points)
       if (!p.allFinite()) std::abort();

@@ -98,6 +98,16 @@ inline std::string odometry(WireWriter out, int64_t stamp_ns, const graph::Pose&
   return out.bytes();
 }
 
+/// Of which only the gyroscope says anything.
+inline std::string imu(WireWriter out, int64_t stamp_ns, std::string_view frame,
+                       const Eigen::Vector3d& turn_rate) {
+  out.header(stamp_ns, frame);
+  for (int k = 0; k < 4 + 9; ++k) out.number(0.0);
+  for (const double rate : turn_rate) out.number(rate);
+  for (int k = 0; k < 9 + 3 + 9; ++k) out.number(0.0);
+  return out.bytes();
+}
+
 struct SampleTransform {
   int64_t stamp_ns = 0;
   std::string parent;

@@ -171,12 +171,78 @@ TEST(Deskew, WithoutOdometryAroundAllBeamsThereIsNoSweep) {
   PoseHistory odometry;
   odometry.add(0, Pose{});
   odometry.add(100'000'000, Pose::planar(1, 0, 0));
-  EXPECT_FALSE(Sweep::along(odometry, 50'000'000, 0, 0.06, {}));
-  EXPECT_FALSE(Sweep::along(odometry, 50'000'000, -0.06, 0, {}));
-  const auto sweep = Sweep::along(odometry, 50'000'000, -0.05, 0.05, {});
+  EXPECT_FALSE(Sweep::along(odometry, {}, 50'000'000, 0, 0.06, {}));
+  EXPECT_FALSE(Sweep::along(odometry, {}, 50'000'000, -0.06, 0, {}));
+  const auto sweep = Sweep::along(odometry, {}, 50'000'000, -0.05, 0.05, {});
   ASSERT_TRUE(sweep);
   EXPECT_NEAR(sweep->T_stamp_then(0.02).translation.x(), 0.2, 1e-9);
   EXPECT_NEAR(sweep->T_stamp_then(-0.05).translation.x(), -0.5, 1e-9);
+}
+
+/// Turns to and fro in its place, 0.1 rad within a scan, faster than odometry at 5 Hz can tell.
+double swaying_yaw(double seconds) {
+  return 0.3 * std::sin(8 * seconds);
+}
+
+// The gyroscope is mounted upside down: its z axis points to the ground.
+double worst_of_a_swaying_robot(bool has_gyroscope) {
+  const Pose T_robot_imu{Eigen::Vector3d(0.1, 0, 0.2), Eigen::Quaterniond(0, 1, 0, 0)};
+  std::vector<test::SampleMessage> messages = {
+      {"/tf_static", "tf2_msgs/TFMessage", kStart,
+       test::transforms(WireWriter(Wire::ros1), {{kStart, "base_link", "imu", T_robot_imu},
+                                                 {kStart, "base_link", "laser", {}}})}};
+  for (int k = 0; k <= 400; ++k) {
+    const double t = 0.005 * k;
+    if (has_gyroscope)
+      messages.push_back(
+          {"/imu", "sensor_msgs/Imu", stamp_at(t),
+           test::imu(WireWriter(Wire::ros1), stamp_at(t), "imu", {0, 0, -2.4 * std::cos(8 * t)})});
+    if (k % 40 == 0)
+      messages.push_back({"/odom", "nav_msgs/Odometry", stamp_at(t),
+                          test::odometry(WireWriter(Wire::ros1), stamp_at(t),
+                                         Pose::planar(0, 0, swaying_yaw(t)))});
+    if (k % 80 != 40) continue;
+    test::SampleScan scan{stamp_at(t), "laser", 0, 0, 0, 50, {}};
+    scan.angle_increment = static_cast<float>(beam_angle(1));
+    scan.time_increment = static_cast<float>(kSweep_s / kBeams);
+    for (int beam = 0; beam < kBeams; ++beam) {
+      const double angle = swaying_yaw(t + beam_time(beam)) + beam_angle(beam);
+      scan.ranges.push_back(range_in_room({0, 0}, {std::cos(angle), std::sin(angle)}));
+    }
+    messages.push_back(
+        {"/scan", "sensor_msgs/LaserScan", stamp_at(t), laser_scan(WireWriter(Wire::ros1), scan)});
+  }
+  const test::TemporaryFolder folder;
+  test::write_file(folder.path() / "log.bag", test::ros1_bag(messages));
+  const auto reader = open_log(folder.path() / "log.bag");
+  std::vector<Observation> observations;
+  while (auto observation = reader->next()) observations.push_back(std::move(*observation));
+  EXPECT_EQ(observations.size(), 5u);
+  return worst_distance_to_walls(observations);
+}
+
+TEST(Deskew, AGyroscopeTellsHowTheRobotTurnedWithinAScan) {
+  EXPECT_LT(worst_of_a_swaying_robot(true), kGood_m);
+  EXPECT_GT(worst_of_a_swaying_robot(false), 0.1);
+}
+
+TEST(TurnRates, AddUpToTheTurnBothWays) {
+  TurnRates rates;
+  // From 0 to 1 rad/s within 50 ms, then even.
+  rates.add(0, {0, 0, 0});
+  rates.add(50'000'000, {0, 0, 1});
+  rates.add(100'000'000, {0, 0, 1});
+  rates.add(300'000'000, {0, 0, 1});
+  const auto yaw = [&](int64_t from_ns, int64_t to_ns) {
+    const auto turn = rates.turn(from_ns, to_ns);
+    return turn ? Pose{Eigen::Vector3d::Zero(), *turn}.yaw_rad() : NAN;
+  };
+  EXPECT_NEAR(yaw(0, 100'000'000), 0.025 + 0.05, 1e-12);
+  EXPECT_NEAR(yaw(75'000'000, 25'000'000), -(0.01875 + 0.025), 1e-12);
+  EXPECT_EQ(yaw(20, 20), 0);
+  EXPECT_TRUE(std::isnan(yaw(0, 200'000'000))) << "0.2 s without a rate";
+  EXPECT_TRUE(std::isnan(yaw(-5, 10)));
+  EXPECT_TRUE(std::isnan(yaw(100, 400'000'000)));
 }
 
 }  // namespace

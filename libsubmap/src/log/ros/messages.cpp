@@ -17,6 +17,8 @@ constexpr double kUnitTolerance = 0.1;
 /// No robot goes further; larger numbers break what is computed from them.
 constexpr double kMaxCoordinate = 1e7;  // metres
 constexpr double kLongestSweep_s = 1;
+/// What gyroscopes of robots measure at most, and more than those that give degrees would pass for.
+constexpr double kMaxTurnRate = 40;  // rad/s
 // Bytes of the shortest element of a sequence.
 constexpr size_t kLeastTransform = 4 + 4 + 4 + 4 + 56;
 constexpr size_t kLeastEcho = 4;
@@ -68,6 +70,7 @@ MessageKind message_kind(std::string_view type) {
     if (name == "LaserScan") return MessageKind::laser_scan;
     if (name == "MultiEchoLaserScan") return MessageKind::multi_echo_scan;
     if (name == "PointCloud2") return MessageKind::cloud;
+    if (name == "Imu") return MessageKind::imu;
   }
   if (package == "nav_msgs" && name == "Odometry") return MessageKind::odometry;
   if ((package == "tf2_msgs" && name == "TFMessage") || (package == "tf" && name == "tfMessage"))
@@ -119,6 +122,18 @@ OdometryMessage read_odometry(WireReader in) {
   if (!pose) throw MessageError("the pose is not finite, or its quaternion has no length of 1");
   odometry.T_odom_robot = *pose;
   return odometry;
+}
+
+std::optional<ImuMessage> read_imu(WireReader in) {
+  ImuMessage imu;
+  imu.header = read_header(in);
+  in.skip<double>(4 + 9);  // orientation and its covariance
+  for (double& rate : imu.turn_rate) rate = in.number<double>();
+  // A covariance that begins with -1 says that the sensor does not measure it.
+  if (in.number<double>() == -1) return std::nullopt;
+  if (!(imu.turn_rate.lpNorm<Eigen::Infinity>() <= kMaxTurnRate))
+    throw MessageError("the angular velocity is none");
+  return imu;
 }
 
 TransformMessages read_transforms(WireReader in) {

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +19,7 @@ namespace hmt::submap {
 // for one that is cut or contradicts itself.
 
 /// What kind of message a topic carries, for us.
-enum class MessageKind { laser_scan, multi_echo_scan, cloud, odometry, transforms, other };
+enum class MessageKind { laser_scan, multi_echo_scan, cloud, odometry, transforms, imu, other };
 
 /// By its type: "sensor_msgs/LaserScan", and the same in the spelling of ROS 2,
 /// "sensor_msgs/msg/LaserScan".
@@ -74,5 +76,13 @@ struct TransformMessages {
   int64_t refused = 0;
 };
 TransformMessages read_transforms(WireReader in);
+
+/// What a gyroscope measured.
+struct ImuMessage {
+  MessageHeader header;
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< rad/s, in the frame of the header
+};
+/// Nothing where the sensor has no gyroscope.
+std::optional<ImuMessage> read_imu(WireReader in);
 
 }  // namespace hmt::submap

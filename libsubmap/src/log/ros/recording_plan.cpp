@@ -86,7 +86,7 @@ class Survey {
     if (kind == MessageKind::odometry) {
       has_odometry_ = true;
       if (seen.child_frame.empty()) seen.child_frame = frame_name(in.text());
-    } else {
+    } else if (is_range_data(kind)) {
       most_scans_ = std::max(most_scans_, seen.messages);
     }
     add_delay(header.stamp_ns, message.received_ns, seen);
@@ -136,6 +136,7 @@ class Choice {
     plan_.transforms = survey_.transforms();
     const Topics scans = choose_scans();
     const SeenTopic* odometry = choose_odometry(*scans.front());
+    choose_imu();
     for (const SeenTopic* scan : scans) {
       plan_.scan_topics.push_back(scan->topic.name);
       if (scan->topic.kind() == MessageKind::cloud) plan_.space = Space::se3;
@@ -220,6 +221,13 @@ class Choice {
     plan_.odom_frame = *odom;
     plan_.robot_frame = *std::prev(odom);
     return *std::ranges::max_element(trees, {}, [](auto* s) { return s->delays_ns.size(); });
+  }
+
+  /// It only betters what the odometry says, so no one is asked which it shall be.
+  void choose_imu() {
+    Topics all = of_kind([](MessageKind kind) { return kind == MessageKind::imu; });
+    std::erase_if(all, [](auto* seen) { return seen->messages == 0; });
+    if (all.size() == 1) plan_.imu_topic = all.front()->topic.name;
   }
 
   void compare_clocks(const SeenTopic& scan, const SeenTopic& odometry) {

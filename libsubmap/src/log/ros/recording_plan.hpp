@@ -16,6 +16,7 @@ struct RecordingPlan {
   std::string odometry_topic;            ///< of nav_msgs/Odometry; empty: the odometry is in /tf
   std::string odom_frame;                ///< with odometry in /tf: the parent of robot_frame
   std::string robot_frame;
+  std::string imu_topic;     ///< the only one; empty if there is none, or several
   Space space = Space::se2;  ///< se3 as soon as one topic has clouds
   /// The clocks of scans and odometry differ, so both are taken at the time of receipt.
   bool uses_time_of_receipt = false;

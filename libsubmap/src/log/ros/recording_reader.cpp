@@ -128,6 +128,8 @@ void RecordingReader::use_message(const RecordedMessage& message) {
       add_odometry(odometry.header, message.received_ns, odometry.T_odom_robot);
     } else if (kind == MessageKind::transforms) {
       add_transforms(message, topic);
+    } else if (kind == MessageKind::imu && topic.name == plan_.imu_topic) {
+      add_imu(message, topic);
     }
   } catch (const MessageError& error) {
     lose("damaged messages on " + topic.name + ": " + error.what(), place(topic));
@@ -191,6 +193,22 @@ void RecordingReader::add_odometry(const MessageHeader& header, int64_t received
                 plan_.space == Space::se2 ? in_plane(T_odom_robot) : T_odom_robot);
 }
 
+void RecordingReader::add_imu(const RecordedMessage& message, const RecordedTopic& topic) {
+  const auto imu = read_imu({message.data, *topic.wire});
+  if (!imu) return;
+  const auto T_robot_imu =
+      plan_.transforms.find(plan_.robot_frame, imu->header.frame, imu->header.stamp_ns);
+  if (!T_robot_imu) {
+    note("gyroscope not used: no transform from frame " + plan_.robot_frame + " to " +
+             imu->header.frame,
+         place(topic));
+    return;
+  }
+  Eigen::Vector3d rate_robot = T_robot_imu->rotation * imu->turn_rate;
+  if (plan_.space == Space::se2) rate_robot.head<2>().setZero();
+  turn_rates_.add(clock_ns(imu->header, message.received_ns), rate_robot);
+}
+
 void RecordingReader::add_transforms(const RecordedMessage& message, const RecordedTopic& topic) {
   const TransformMessages all = read_transforms({message.data, *topic.wire});
   lose("transforms that are no poses on " + topic.name, place(topic), all.refused);
@@ -232,8 +250,8 @@ bool RecordingReader::has_odometry(const Scan& scan) const {
 
 void RecordingReader::find_sweep(Scan& scan) {
   if (scan.beam_times_s.empty()) return;
-  scan.sweep = Sweep::along(odometry_, scan.stamp_ns, scan.first_beam_s, scan.last_beam_s,
-                            scan.T_robot_sensor);
+  scan.sweep = Sweep::along(odometry_, turn_rates_, scan.stamp_ns, scan.first_beam_s,
+                            scan.last_beam_s, scan.T_robot_sensor);
   if (!scan.sweep)
     note("scans left as they are, without odometry at the times of all beams", scan.place);
 }

@@ -19,7 +19,8 @@ namespace hmt::submap {
 /// further reading of it.
 ///
 /// Scans whose beams or points have times of their own are taken as seen from where the sensor was
-/// at the stamp: each point is moved by what the odometry says that the robot did in between.
+/// at the stamp: each point is moved by what the odometry, and a gyroscope, say that the robot did
+/// in between.
 ///
 /// A scan waits until the odometry around it has been read, but for no more than two seconds
 /// of the recording. Laser scans are read ahead to learn the code for a miss, as from CARMEN logs.
@@ -57,6 +58,7 @@ class RecordingReader : public LogReader {
   void use_message(const RecordedMessage& message);
   void add_scan(const RecordedMessage& message, size_t sensor, const RecordedTopic& topic);
   void add_odometry(const MessageHeader& header, int64_t received_ns, const Pose& T_odom_robot);
+  void add_imu(const RecordedMessage& message, const RecordedTopic& topic);
   void add_transforms(const RecordedMessage& message, const RecordedTopic& topic);
   int64_t clock_ns(const MessageHeader& header, int64_t received_ns);
   bool mount(const MessageHeader& header, Scan& scan);
@@ -79,6 +81,7 @@ class RecordingReader : public LogReader {
   int64_t bytes_total_ = 0;
   LogReport report_;
   PoseHistory odometry_;
+  TurnRates turn_rates_;
   std::map<size_t, RangeLimit> limits_;  ///< by sensor
   std::deque<Scan> waiting_;             ///< for their odometry
   std::deque<Scan> ahead_;               ///< with their pose

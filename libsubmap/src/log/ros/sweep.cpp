@@ -15,20 +15,29 @@ constexpr double kNanosecond_s = 1e-9;
 
 }  // namespace
 
-std::optional<Sweep> Sweep::along(const PoseHistory& odometry, int64_t stamp_ns, double first_s,
-                                  double last_s, const Pose& T_robot_sensor) {
+std::optional<Sweep> Sweep::along(const PoseHistory& odometry, const TurnRates& turn_rates,
+                                  int64_t stamp_ns, double first_s, double last_s,
+                                  const Pose& T_robot_sensor) {
   const auto pose_after = [&](double offset_s) {
     return odometry.between(stamp_after(stamp_ns, offset_s));
   };
   const auto T_odom_robot = pose_after(0);
   if (!T_odom_robot) return std::nullopt;
   const Pose T_stamp_odom = (*T_odom_robot * T_robot_sensor).inverse();
+  // All of it or nothing: the two may differ by what one of them is wrong.
+  const bool has_turn =
+      turn_rates.turn(stamp_after(stamp_ns, first_s), stamp_after(stamp_ns, last_s)) &&
+      turn_rates.turn(stamp_ns, stamp_after(stamp_ns, last_s));
   Sweep sweep;
   sweep.first_s_ = first_s;
   sweep.step_s_ = (last_s - first_s) / kSteps;
   for (size_t k = 0; k <= kSteps; ++k) {
-    const auto then = pose_after(first_s + static_cast<double>(k) * sweep.step_s_);
+    const double offset_s = first_s + static_cast<double>(k) * sweep.step_s_;
+    auto then = pose_after(offset_s);
     if (!then) return std::nullopt;
+    if (has_turn)
+      if (const auto turn = turn_rates.turn(stamp_ns, stamp_after(stamp_ns, offset_s)))
+        then->rotation = T_odom_robot->rotation * *turn;
     sweep.T_stamp_then_[k] = T_stamp_odom * *then * T_robot_sensor;
   }
   return sweep;

@@ -8,16 +8,19 @@
 #include <vector>
 
 #include "pose_history.hpp"
+#include "turn_rates.hpp"
 
 namespace hmt::submap {
 
-/// How a sensor moved, by the odometry, while it took one scan or cloud beam by beam.
+/// How a sensor moved while it took one scan or cloud beam by beam: by the odometry, and where
+/// there is a gyroscope by how that says it turned.
 class Sweep {
  public:
   /// From the first to the last of the times of the beams, seconds after the scan's stamp. Nothing
   /// where the odometry does not reach over all of it.
-  static std::optional<Sweep> along(const PoseHistory& odometry, int64_t stamp_ns, double first_s,
-                                    double last_s, const graph::Pose& T_robot_sensor);
+  static std::optional<Sweep> along(const PoseHistory& odometry, const TurnRates& turn_rates,
+                                    int64_t stamp_ns, double first_s, double last_s,
+                                    const graph::Pose& T_robot_sensor);
 
   /// The pose of the sensor at that time in its frame at the stamp of the scan.
   graph::Pose T_stamp_then(double offset_s) const;
