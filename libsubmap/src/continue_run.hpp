@@ -9,6 +9,6 @@
 namespace hmt::submap {
 
 /// The stages after the track, as far as the file does not have them.
-std::vector<StageTime> continue_run(MapFile& file, const Options& options, const Run& run);
+std::vector<StageTime> continue_run(MapFile& file, const Options& given, const Run& run);
 
 }  // namespace hmt::submap
