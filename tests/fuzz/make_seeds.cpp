@@ -17,10 +17,15 @@ using submap::Wire;
 
 constexpr size_t kScans = 3;
 
+/// Adds two rates of a gyroscope and a cloud whose points were seen between them.
 std::vector<SampleMessage> with_cloud(std::vector<SampleMessage> messages, Wire wire) {
   const int64_t stamp_ns = messages.back().received_ns;
+  for (const int64_t before_ns : {50'000'000, 0})
+    messages.push_back({"/imu", "sensor_msgs/Imu", stamp_ns,
+                        imu(WireWriter(wire), stamp_ns - before_ns, "base_link", {0.1, 0.2, 0.3})});
   messages.push_back({"/points", "sensor_msgs/PointCloud2", stamp_ns,
-                      cloud(WireWriter(wire), stamp_ns, "laser", {{1, 2, 3}, {4, 5, 6}})});
+                      timed_cloud(WireWriter(wire), stamp_ns, "laser", {{1, 2, 3}, {4, 5, 6}},
+                                  {"time", 7, {-0.01, 0}})});
   return messages;
 }
 
