@@ -78,8 +78,7 @@ void measure(const char* name, Method method, const std::vector<Observation>& cl
   }
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf("  %-9s %8.4f m %8.4f deg %6.1f %% off by 0.5 m or 2 deg %8.1f ms cpu a pair\n", name,
-              median(metres), median(degrees),
-              100.0 * failures / static_cast<double>(pairs.size()),
+              median(metres), median(degrees), 100.0 * failures / static_cast<double>(pairs.size()),
               1e3 * seconds / static_cast<double>(pairs.size()));
   std::fflush(stdout);
 }
@@ -98,10 +97,9 @@ std::vector<Pair> pairs_apart(const std::vector<Observation>& clouds,
                               size_t every) {
   std::vector<Pair> pairs;
   for (size_t i = 0; i + apart < clouds.size(); i += every)
-    pairs.push_back({i, i + apart,
-                     relative_pose(clouds[i].T_odom_robot, clouds[i + apart].T_odom_robot),
-                     relative_pose(reference.at(i).T_world_robot,
-                                   reference.at(i + apart).T_world_robot)});
+    pairs.push_back(
+        {i, i + apart, relative_pose(clouds[i].T_odom_robot, clouds[i + apart].T_odom_robot),
+         relative_pose(reference.at(i).T_world_robot, reference.at(i + apart).T_world_robot)});
   return pairs;
 }
 
