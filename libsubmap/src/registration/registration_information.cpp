@@ -32,12 +32,12 @@ struct InlierSums {
   int count = 0;
 };
 
-// Sum of J J^T of the matches without the share that the chance errors of the normals' directions
-// add: a measured normal cos(e) n + sin(e) t has E[n n^T] = (1 - v) n n^T + v t t^T, v = E[e^2].
-// With M the map from the tangent to the motion of the point, J = M^T n, and I - n n^T for t t^T
-// (over both tangents in space), a match is worth (1 + v) J J^T - v M^T M; the second terms add up
-// in the moments of the points.
-class UnbiasedSum {
+// What the matches tell, and what the chance errors of the normals' directions add to it: a
+// measured normal cos(e) n + sin(e) t has E[n n^T] = (1 - v) n n^T + v t t^T, v = E[e^2]. With M
+// the map from the tangent to the motion of the point, J = M^T n, and I - n n^T for t t^T (over
+// both tangents in space), a match is worth (1 + v) J J^T - v M^T M; the second terms add up in the
+// moments of the points.
+class BiasedSum {
  public:
   void add(double weight, const Vector6d& J, const Eigen::Vector3d& p, double direction_variance) {
     const double v =
@@ -47,12 +47,13 @@ class UnbiasedSum {
     first_ += weight * v * p;
     second_ += weight * v * p * p.transpose();
   }
-  Matrix6d sum() const {
+  const Matrix6d& outer() const { return outer_; }
+  Matrix6d chance() const {
     Matrix6d moments;
     const Eigen::Matrix3d cross = graph::skew(first_);
     moments << weight_ * Eigen::Matrix3d::Identity(), -cross, cross,
         second_.trace() * Eigen::Matrix3d::Identity() - second_;
-    return outer_ - moments;
+    return moments;
   }
 
  private:
@@ -62,6 +63,32 @@ class UnbiasedSum {
   Eigen::Matrix3d second_ = Eigen::Matrix3d::Zero();
 };
 
+// A - B without what is negative of it, in the directions in which A is a multiple of B: what no
+// surface fixes shows in A by nothing but a share of B, so that exactly this direction is left
+// free. The eigenvectors of A - B would be tilted against it, and a pose that is wrong along a
+// corridor would be told to be wrong across it.
+template <int N>
+Eigen::Matrix<double, N, N> beyond(const Eigen::Matrix<double, N, N>& A,
+                                   const Eigen::Matrix<double, N, N>& B) {
+  constexpr double kRelative = 1e-6, kAbsolute = 1e-9;
+  using Square = Eigen::Matrix<double, N, N>;
+  Square positive = B;
+  positive.diagonal().array() += kRelative * A.diagonal().array() + kAbsolute;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Square> eigen(A, positive);
+  const Square outward = positive * eigen.eigenvectors();
+  const Square kept = outward * (eigen.eigenvalues().array() - 1).max(0).matrix().asDiagonal() *
+                      outward.transpose();
+  return (kept + kept.transpose()) / 2;
+}
+
+Matrix6d beyond_chance(Space space, const BiasedSum& sum) {
+  if (space == Space::se3) return beyond<6>(sum.outer(), sum.chance());
+  const Eigen::Array3i plane(0, 1, 5);
+  Matrix6d information = Matrix6d::Zero();
+  information(plane, plane) = beyond<3>(sum.outer()(plane, plane), sum.chance()(plane, plane));
+  return information;
+}
+
 std::vector<int> shared_elements(const std::vector<Match>& matches) {
   uint32_t largest = 0;
   for (const Match& match : matches) largest = std::max(largest, match.element);
@@ -70,9 +97,9 @@ std::vector<int> shared_elements(const std::vector<Match>& matches) {
   return count;
 }
 
-InlierSums sum_inliers(const SurfaceMatcher& matcher) {
+InlierSums sum_inliers(const SurfaceMatcher& matcher, Space space) {
   InlierSums sums;
-  UnbiasedSum information;
+  BiasedSum information;
   const std::vector<int> sharing = shared_elements(matcher.matches());
   for (const Match& match : matcher.matches()) {
     if (std::abs(match.residual_m) > matcher.scale_m()) continue;
@@ -85,7 +112,7 @@ InlierSums sum_inliers(const SurfaceMatcher& matcher) {
     sums.range2 += p.squaredNorm();
     ++sums.count;
   }
-  sums.information = information.sum();
+  sums.information = beyond_chance(space, information);
   return sums;
 }
 
@@ -110,8 +137,7 @@ double correlation_inflation(const SurfaceMatcher& matcher) {
   return inflation;
 }
 
-// (I^-1 + B)^-1 for a diagonal B, also where I is singular; negative eigenvalues, which chance
-// leaves after the correction of the normals, count as zero.
+// (I^-1 + B)^-1 for a diagonal B, also where I is singular.
 Matrix6d with_shared_error(const Matrix6d& information, double range_m) {
   Vector6d shared;
   shared << Eigen::Vector3d::Constant(kSharedError_m),
@@ -127,33 +153,23 @@ Matrix6d with_shared_error(const Matrix6d& information, double range_m) {
   return (rounded + rounded.transpose()) / 2;
 }
 
-Matrix6d in_space(Space space, Matrix6d information) {
-  if (space == Space::se2)
-    for (const int i : {2, 3, 4}) {
-      information.row(i).setZero();
-      information.col(i).setZero();
-    }
-  return information;
-}
-
 }  // namespace
 
 Matrix6d geometric_information(const SurfaceMatcher& matcher, Space space) {
-  const InlierSums sums = sum_inliers(matcher);
+  const InlierSums sums = sum_inliers(matcher, space);
   if (sums.count == 0) return Matrix6d::Zero();
-  return with_shared_error(in_space(space, sums.information), std::sqrt(sums.range2 / sums.count));
+  return with_shared_error(sums.information, std::sqrt(sums.range2 / sums.count));
 }
 
 Matrix6d honest_information(const SurfaceMatcher& matcher, Space space) {
-  const InlierSums sums = sum_inliers(matcher);
+  const InlierSums sums = sum_inliers(matcher, space);
   const int unknowns = space == Space::se2 ? 3 : 6;
   if (sums.count <= unknowns) return Matrix6d::Zero();
   const double variance_factor =
       sums.chi2 / (sums.count - unknowns) * correlation_inflation(matcher);
   const double accounted = sums.inflation / sums.count;
-  return with_shared_error(
-      in_space(space, sums.information) / std::max(1.0, variance_factor / accounted),
-      std::sqrt(sums.range2 / sums.count));
+  return with_shared_error(sums.information / std::max(1.0, variance_factor / accounted),
+                           std::sqrt(sums.range2 / sums.count));
 }
 
 void summarize(const SurfaceMatcher& matcher, Space space, Registration& result) {
