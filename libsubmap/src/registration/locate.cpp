@@ -59,11 +59,16 @@ class Locator {
   bool is_doubtful(const Registration& found) const {
     return mahalanobis2(found) > kDoubtful2 || !fits(found);
   }
-  bool meets_enough(const Registration& found) const {
-    return credit(found) >= least_inliers(space_);
+  /// What contradicts the prediction must not look through the map: people around the robot may
+  /// leave so little of the map in view that a wrong pose fits better than the right one.
+  bool is_trusted(const Registration& found) const {
+    return mahalanobis2(found) > kDoubtful2 ? fits(found) : meets_enough(found);
   }
 
  private:
+  bool meets_enough(const Registration& found) const {
+    return credit(found) >= least_inliers(space_);
+  }
   double mahalanobis2(const Registration& found) const;
   /// Inlier fraction less what the contradiction to the odometry costs.
   double credit(const Registration& found) const;
@@ -177,7 +182,7 @@ LocatedSurface locate(Space space, const Surface& surface, const RegistrationTar
     located.registration = space == Space::se2 ? locator.search(located.registration)
                                                : locator.search_wide(located.registration);
   }
-  located.fits = locator.meets_enough(located.registration);
+  located.fits = locator.is_trusted(located.registration);
   return located;
 }
 

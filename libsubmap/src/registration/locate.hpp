@@ -16,7 +16,9 @@ struct Prediction {
 
 struct LocatedSurface {
   Registration registration;
-  bool fits = false;      ///< whether enough of the surface meets the map
+  /// Whether enough of the surface meets the map, and nothing speaks against what it says of the
+  /// prediction.
+  bool fits = false;
   bool searched = false;  ///< whether the registration from the prediction was in doubt
 };
 
