@@ -11,8 +11,7 @@ namespace hmt::test {
 /// How well a simulated building was mapped.
 struct BuildingFigures {
   int closures = 0;  ///< accepted loop closures, and registrations between visits
-  /// Of these those that are wrong by more than 0.3 m or 0.1 rad, and by more than their covariance
-  /// allows (99.9 %): that the way along a corridor is known to half a metre is no false claim.
+  /// Of these those that are wrong by more than 0.3 m or 0.1 rad, whatever they claim to know.
   int false_closures = 0;
   /// Keyframes at a place (0.5 m, 0.3 rad) where the robot was before, 20 m of travel ago.
   int revisits = 0;

@@ -123,6 +123,18 @@ void share_visits(std::span<const Constraint> known, size_t keyframes,
       c.information /= std::max(uses[static_cast<size_t>(c.a)], uses[static_cast<size_t>(c.b)]);
 }
 
+/// Of a prior in the plane that decides nothing that the surfaces tell, and keeps a pose from
+/// wandering along what they leave free: registration finds nothing that is farther off. In space
+/// the little ground that is seen must hold against it, so there is none.
+Matrix6d free_information(Space space) {
+  constexpr double kFree_m = 0.3, kFree_rad = 0.1;
+  Matrix6d information = Matrix6d::Zero();
+  if (space == Space::se3) return information;
+  for (const int axis : {0, 1}) information(axis, axis) = 1 / (kFree_m * kFree_m);
+  information(5, 5) = 1 / (kFree_rad * kFree_rad);
+  return information;
+}
+
 class PairRegistration {
  public:
   PairRegistration(Space space, std::span<const Keyframe> keyframes,
@@ -142,6 +154,7 @@ class PairRegistration {
                                      T_world_keyframe_[static_cast<size_t>(b)]);
     RegistrationOptions options;
     options.space = space_;
+    options.prior = PosePrior{T_a_b, free_information(space_)};
     const Registration result = register_surface(surface_b, target_a, T_a_b, options);
     if (result.termination != Registration::Termination::converged) return std::nullopt;
     // SSO = m / (|a| + |b| - m); for surfaces of like size the share of b that a explains is 2 SSO

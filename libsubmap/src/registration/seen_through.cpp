@@ -40,17 +40,20 @@ std::array<double, kBearings> measured_ranges(const Surface& source) {
 double seen_through_share(const Surface& source, const RegistrationTarget& target,
                           const Pose& T_target_source) {
   const std::array<double, kBearings> ranges = measured_ranges(source);
+  const double farthest = *std::max_element(ranges.begin(), ranges.end());
   const Pose T_source_target = T_target_source.inverse();
+  const Eigen::Matrix3d R_source_target = T_source_target.rotation_matrix();
   int through = 0;
   int met = 0;
   for (const SurfaceElement& element : target.impl().elements) {
-    const Eigen::Vector3d p = T_source_target * element.point;
-    const double range = std::hypot(p.x(), p.y());
-    const double measured = ranges[bearing(p.x(), p.y())];
+    const Eigen::Vector3d p = R_source_target * element.point + T_source_target.translation;
     // The back of a surface is not in view, nor is what lies behind something.
-    const double before_m = -(T_source_target.rotation * element.normal).dot(p);
-    if (before_m <= 0 || range < kLeastRange_m || measured == 0 || range > measured + kMargin_m)
-      continue;
+    const double before_m = -(R_source_target * element.normal).dot(p);
+    if (before_m <= 0) continue;
+    const double range = p.head<2>().norm();
+    if (range < kLeastRange_m || range > farthest + kMargin_m) continue;
+    const double measured = ranges[bearing(p.x(), p.y())];
+    if (measured == 0 || range > measured + kMargin_m) continue;
     // A beam that grazes a surface has not passed through it: it must have ended well behind it.
     const double behind_m = before_m * (measured / range - 1);
     ++(behind_m > kMargin_m ? through : met);
