@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "../registration/local_map.hpp"
 #include "../registration/surface_store.hpp"
 #include "hmt/submap/registration/register_surface.hpp"
 
@@ -105,22 +106,12 @@ double mahalanobis_squared(const Vector6d& difference, const Matrix6d& informati
 }
 
 /// Clouds of one visit err alike against each other: they sample the same rough ground at the same
-/// bearings, so that registrations in a row bend the way the same way, and the tracker has used
-/// each of them already. What a cloud tells of its visit is shared among the registrations there
-/// that it takes part in, or their common error would outweigh an odometry that is held upright.
-void share_visits(std::span<const Constraint> known, size_t keyframes,
-                  std::vector<Constraint>& found) {
-  std::vector<int> uses(keyframes, 1);
-  const auto count = [&](const Constraint& c) {
-    if (c.b - c.a > kVisitGap) return;
-    ++uses[static_cast<size_t>(c.a)];
-    ++uses[static_cast<size_t>(c.b)];
-  };
-  for (const Constraint& c : known) count(c);
-  for (const Constraint& c : found) count(c);
+/// bearings, and their registrations in a row bend the way the same way. The tracker has matched
+/// each of them with all the keyframes of its local map at once, of which the pair is one: it tells
+/// as much again as its share, or the common error would outweigh an odometry that is held upright.
+void share_visits(std::vector<Constraint>& found) {
   for (Constraint& c : found)
-    if (c.b - c.a <= kVisitGap)
-      c.information /= std::max(uses[static_cast<size_t>(c.a)], uses[static_cast<size_t>(c.b)]);
+    if (c.b - c.a <= kVisitGap) c.information /= kLocalMapKeyframes;
 }
 
 /// Of a prior in the plane that decides nothing that the surfaces tell, and keeps a pose from
@@ -212,7 +203,7 @@ std::vector<Constraint> register_overlapping(
   std::vector<Constraint> constraints;
   for (const auto& slot : slots)
     if (slot) constraints.push_back(*slot);
-  if (space == Space::se3) share_visits(known, keyframes.size(), constraints);
+  if (space == Space::se3) share_visits(constraints);
   return constraints;
 }
 

@@ -6,16 +6,9 @@
 #include <vector>
 
 namespace hmt::submap {
-namespace {
-
-// A full turn in steps of 0.35 rad makes 18 keyframes; some more join it with the way there.
-constexpr size_t kKeyframes = 30;
-
-}  // namespace
-
 void LocalMap::add(const Pose& T_track_robot, Surface surface) {
   surfaces_.push_back({T_track_robot, std::move(surface)});
-  if (surfaces_.size() > kKeyframes) surfaces_.pop_front();
+  if (surfaces_.size() > kLocalMapKeyframes) surfaces_.pop_front();
   std::vector<RegistrationTarget::Placed> placed;
   for (const Placed& p : surfaces_) placed.push_back({p.T_track_robot, &p.surface});
   target_ = RegistrationTarget(placed);

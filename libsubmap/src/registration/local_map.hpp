@@ -8,6 +8,9 @@
 
 namespace hmt::submap {
 
+/// A full turn in steps of 0.35 rad makes 18 keyframes; some more join it with the way there.
+inline constexpr size_t kLocalMapKeyframes = 30;
+
 /// The surfaces of the latest keyframes: what an observation is registered against. It forgets the
 /// oldest ones, so its memory is bounded.
 class LocalMap {

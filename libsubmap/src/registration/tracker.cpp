@@ -63,8 +63,7 @@ Tracker::Tracker(Space space, const TrackOptions& options)
 void Tracker::start(const Observation& observation, Surface surface) {
   T_track_latest_ = observation.T_odom_robot;
   add_keyframe(observation,
-               {T_track_latest_, diagonal_in(space_, kDefining, kDefining), true, T_track_latest_,
-                Vector6d::Zero()},
+               {T_track_latest_, diagonal_in(space_, kDefining, kDefining), true, T_track_latest_},
                std::move(surface));
 }
 
@@ -191,8 +190,7 @@ void Tracker::add_keyframe(const Observation& observation, const Estimate& estim
     track_.odometry.push_back({previous.id, previous.id + 1, ConstraintKind::odometry, T_a_b,
                                by_registration + by_odometry});
     if (space_ == Space::se3)
-      chain_.push_back(
-          {T_keyframe_odometry_, T_a_b, estimate.information, estimate.pull, odometry_unbroken_});
+      chain_.push_back({T_keyframe_odometry_, T_a_b, estimate.information, odometry_unbroken_});
     if (odometry_unbroken_ && space_ == Space::se3 && estimate.registered)
       keyframe_odometry_.learn(
           T_keyframe_odometry_, relative_pose(previous.T_track_robot, estimate.T_track_measured),

@@ -35,8 +35,7 @@ class Tracker {
     Pose T_track_robot;
     Matrix6d information = Matrix6d::Zero();  // of the registration alone
     bool registered = false;
-    Pose T_track_measured;             // what the surfaces alone say, without the prediction
-    Vector6d pull = Vector6d::Zero();  // information times (measured - estimate)
+    Pose T_track_measured;  // what the surfaces alone say, without the prediction
   };
 
   /// A step between two observations.

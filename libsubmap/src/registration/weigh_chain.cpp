@@ -18,6 +18,9 @@ constexpr size_t kLeastSteps = 100;
 constexpr double kNothing = 1e-4;
 // A tenth of a millimetre, or of a milliradian, in a metre: no odometry is better.
 constexpr double kLeastRate = 1e-8;
+// A registration errs by up to four times what it claims. What does not grow with the way beyond
+// that is odometry's, too: one that knows no tilt is off by as much after a metre as after ten.
+constexpr double kMostExtra = 15;  // variances
 // Motion of a step below this share of the usual one: odometry stood still while the robot did not.
 constexpr double kLeastShare = 0.5;
 
@@ -33,7 +36,8 @@ struct Way {
 /// What is learnt of one direction.
 struct AxisNoise {
   NoiseComponents noise;
-  double error_per_m = 0;  // of odometry, always
+  double odometry_step = 0;  // variance of odometry that does not grow with the way
+  double error_per_m = 0;    // of odometry, always
 };
 
 double median(std::vector<double> values) {
@@ -61,23 +65,22 @@ class ChainWeights {
 
   WeighedStep weigh(const ChainStep& step) const {
     if (!step.has_odometry) return {step.estimate, Matrix6d::Zero()};
-    // (I^-1 + N)^-1 and what it pulls with, also where I is singular.
+    // (I^-1 + N)^-1, also where I is singular.
     const Matrix6d registration_noise = registration_variances().asDiagonal();
     const Matrix6d narrowed =
         (Matrix6d::Identity() + step.information * registration_noise).inverse();
     const Matrix6d measured = narrowed * step.information;
-    const Vector6d pull = narrowed * step.pull;
     const Matrix6d odometry = odometry_variances(step).cwiseInverse().asDiagonal();
     const Vector6d difference = boxminus(corrected(step), step.estimate);
     const Matrix6d both = measured + odometry;
     const Matrix6d inverse = both.inverse();
     // Squared Mahalanobis distance between odometry d and registration m with their informations O
     // and M: a^T (M^-1 - (M + O)^-1) a, a = M (d - m).
-    const Vector6d apart = measured * difference - pull;
+    const Vector6d apart = measured * difference;
     const Matrix6d covariance = (measured + kNothing * Matrix6d::Identity()).inverse();
     const double doubt = std::max(1.0, apart.dot((covariance - inverse) * apart) / 6);
     const Matrix6d information = both / doubt;
-    return {boxplus(step.estimate, inverse * (pull + odometry * difference)),
+    return {boxplus(step.estimate, inverse * (odometry * difference)),
             (information + information.transpose()) / 2};
   }
 
@@ -97,7 +100,7 @@ class ChainWeights {
     const ChainStep& last = chain_[begin + steps - 1];
     if (last.information.isZero(0) || way.motion.minCoeff() <= 0) return;
     const Matrix6d covariance = (last.information + kNothing * Matrix6d::Identity()).inverse();
-    way.difference = boxminus(odometry, estimate) - covariance * last.pull;
+    way.difference = boxminus(odometry, estimate);
     way.known_variance = covariance.diagonal();
     ways_.push_back(way);
   }
@@ -113,14 +116,26 @@ class ChainWeights {
       step_variances.push_back(way.known_variance[axis]);
     }
     AxisNoise& of_axis = axes_[static_cast<size_t>(axis)];
-    of_axis.noise = separate_noise(samples);
     usual_motion_[axis] = median(std::move(step_motions));
-    const double registration = of_axis.noise.registration + median(std::move(step_variances));
-    if (errors.empty() || of_axis.noise.odometry_rate * usual_motion_[axis] < registration) return;
-    of_axis.error_per_m = median(std::move(errors));
+    const double claimed = median(std::move(step_variances));
+    of_axis = noise_of(samples, claimed);
+    const double of_odometry =
+        of_axis.noise.odometry_rate * usual_motion_[axis] + of_axis.odometry_step;
+    if (errors.empty() || of_odometry < of_axis.noise.registration + claimed) return;
+    const double error_per_m = median(std::move(errors));
     for (size_t k = 0; k < samples.size(); ++k)
-      samples[k].difference -= of_axis.error_per_m * ways_[k].length_m;
+      samples[k].difference -= error_per_m * ways_[k].length_m;
+    of_axis = noise_of(samples, claimed);
+    of_axis.error_per_m = error_per_m;
+  }
+
+  static AxisNoise noise_of(std::span<const NoiseSample> samples, double claimed) {
+    AxisNoise of_axis;
     of_axis.noise = separate_noise(samples);
+    const double extra = std::min(of_axis.noise.registration, kMostExtra * claimed);
+    of_axis.odometry_step = of_axis.noise.registration - extra;
+    of_axis.noise.registration = extra;
+    return of_axis;
   }
 
   Vector6d registration_variances() const {
@@ -135,8 +150,9 @@ class ChainWeights {
         OdometryModel::motion_by_axis(step.odometry).cwiseMax(kLeastShare * usual_motion_);
     Vector6d variances;
     for (size_t k = 0; k < 6; ++k)
-      variances[static_cast<Eigen::Index>(k)] =
-          std::max(axes_[k].noise.odometry_rate, kLeastRate) * motion[static_cast<Eigen::Index>(k)];
+      variances[static_cast<Eigen::Index>(k)] = std::max(axes_[k].noise.odometry_rate, kLeastRate) *
+                                                    motion[static_cast<Eigen::Index>(k)] +
+                                                axes_[k].odometry_step;
     return variances;
   }
 

@@ -12,11 +12,10 @@ namespace hmt::submap {
 /// The way from one keyframe to the next as the tracker found it.
 struct ChainStep {
   Pose odometry;  ///< by odometry alone
-  Pose estimate;  ///< by odometry and registration, as they were weighed then
-  /// Of the registration against the local map, zero if there was none, and what it pulls the
-  /// estimate with: information times (registration - estimate). Tangent of Pose, frame of the end.
+  /// By registration against the local map, drawn by odometry where that says little, and the
+  /// information of the registration (tangent of Pose, frame of the end); zero if there was none.
+  Pose estimate;
   Matrix6d information = Matrix6d::Zero();
-  Vector6d pull = Vector6d::Zero();
   bool has_odometry = false;  ///< without jump or reset
 };
 
