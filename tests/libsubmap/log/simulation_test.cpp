@@ -10,8 +10,8 @@
 
 #include "log/simulation/floor_plan.hpp"
 #include "log/simulation/laser_model.hpp"
-#include "log/simulation/odometry_model.hpp"
 #include "log/simulation/robot_path.hpp"
+#include "log/simulation/wheel_odometry.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -87,9 +87,9 @@ TEST(RobotPath, DrivesTurnsAndEnds) {
   EXPECT_FALSE(robot.advance(10.1));
 }
 
-TEST(OdometryModel, StandsStillWithTheRobot) {
+TEST(WheelOdometry, StandsStillWithTheRobot) {
   Random random(3);
-  OdometryModel odometry(Pose::planar(3, 4, 1), random);
+  WheelOdometry odometry(Pose::planar(3, 4, 1), random);
   EXPECT_EQ(odometry.measure(Pose::planar(3, 4, 1), random), Pose{});
 }
 

@@ -6,8 +6,8 @@
 
 #include "../range_scan.hpp"
 #include "laser_model.hpp"
-#include "odometry_model.hpp"
 #include "robot_path.hpp"
+#include "wheel_odometry.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -39,7 +39,7 @@ struct Simulation::Parts {
   Random random;
   LaserModel laser;
   RobotPath robot;
-  OdometryModel odometry;
+  WheelOdometry odometry;
   int64_t scans = 0;
   bool done = false;
 };

@@ -10,10 +10,10 @@ namespace hmt::submap {
 /// Wheel odometry: each step is measured with a constant bias (wheels that are not equal) and with
 /// noise whose variance grows with the way driven and the angle turned. Drifts by some metres in
 /// 200 m, as the odometry of real logs does.
-class OdometryModel {
+class WheelOdometry {
  public:
   /// Draws the biases of this robot.
-  OdometryModel(const Pose& T_world_robot, Random& random);
+  WheelOdometry(const Pose& T_world_robot, Random& random);
 
   /// The odometry's pose after the robot has moved to T_world_robot; starts at the identity.
   Pose measure(const Pose& T_world_robot, Random& random);

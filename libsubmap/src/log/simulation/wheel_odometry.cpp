@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The hmtmap authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "odometry_model.hpp"
+#include "wheel_odometry.hpp"
 
 #include <cmath>
 
@@ -17,13 +17,13 @@ constexpr double kTurnNoise = 0.02;    // radians
 
 }  // namespace
 
-OdometryModel::OdometryModel(const Pose& T_world_robot, Random& random)
+WheelOdometry::WheelOdometry(const Pose& T_world_robot, Random& random)
     : T_world_robot_(T_world_robot),
       length_bias_(random.normal(kLengthBias)),
       drift_bias_rad_per_m_(random.normal(kDriftBias)),
       turn_bias_(random.normal(kTurnBias)) {}
 
-Pose OdometryModel::measure(const Pose& T_world_robot, Random& random) {
+Pose WheelOdometry::measure(const Pose& T_world_robot, Random& random) {
   const Pose step = graph::relative_pose(T_world_robot_, T_world_robot);
   T_world_robot_ = T_world_robot;
   const double driven_m = step.translation.norm();
