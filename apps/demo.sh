@@ -48,12 +48,19 @@ else
   mkdir -p "$out"
 fi
 
-# What is there may be of another log of that name, or of an older version.
-if [[ -e $out/map.hmt ]] && ! try map "$log" -o "$out/map.hmt"; then
-  say "making it anew"
-  rm -f "$out/map.hmt" "$out/map.hmt-journal"
+if [[ -e $out/map.hmt ]]; then
+  code=0
+  try map "$log" -o "$out/map.hmt" || code=$?
+  # Refused: of another log of that name, or of an older version. Interrupted, it is gone on with.
+  if ((code == 1)); then
+    say "making it anew"
+    run map "$log" -o "$out/map.hmt" --force
+  elif ((code != 0)); then
+    exit "$code"
+  fi
+else
+  run map "$log" -o "$out/map.hmt"
 fi
-if [[ ! -e $out/map.hmt ]]; then run map "$log" -o "$out/map.hmt"; fi
 run export "$out/map.hmt" -o "$out/export" --force
 say "done: map $out/map.hmt"
 say "look at $out/export: map.pgm (grid), trajectory.tum, partition.csv, topology.dot, submaps/"

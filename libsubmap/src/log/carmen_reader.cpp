@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "../observation/median.hpp"
 #include "range_scan.hpp"
 #include "report_book.hpp"
 #include "text_fields.hpp"
@@ -27,12 +28,6 @@ constexpr double kSameObservation = 0.2;  // seconds
 constexpr double kMountShift = 0.05;  // metres
 constexpr double kMountTurn = 0.05;   // radians
 constexpr double kMaxMount = 3;       // metres
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 bool near(const Pose& T_a, const Pose& T_b) {
   const Pose T_b_a = relative_pose(T_b, T_a);

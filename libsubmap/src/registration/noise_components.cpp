@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "../observation/median.hpp"
+
 namespace hmt::submap {
 namespace {
 
@@ -16,12 +18,6 @@ constexpr double kNormalShare = 0.7863;
 constexpr int kIterations = 300;
 // Steps of expectation maximization grow small long before they end.
 constexpr double kConverged = 1e-4;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 NoiseComponents start(std::span<const NoiseSample> samples) {
   std::vector<double> rates, motions;

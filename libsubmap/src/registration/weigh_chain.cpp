@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "../observation/median.hpp"
 #include "noise_components.hpp"
 #include "odometry_model.hpp"
 
@@ -39,12 +40,6 @@ struct AxisNoise {
   double odometry_step = 0;  // variance of odometry that does not grow with the way
   double error_per_m = 0;    // of odometry, always
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class ChainWeights {
  public:
