@@ -12,7 +12,7 @@ build_packages=(
   liblz4-dev liblzf-dev libmetis-dev liboctomap-dev libspdlog-dev libspectra-dev libsqlite3-dev
   libsuitesparse-dev libtbb-dev libzstd-dev nlohmann-json3-dev zlib1g-dev)
 # What the further checks of .ci/run need.
-check_packages=(clang clang-format clang-tidy libclang-rt-14-dev)
+check_packages=(clang clang-format clang-tidy libclang-rt-14-dev octomap-tools)
 
 # CI stops at warnings; a user's compiler may know warnings that ours does not.
 preset=release

@@ -61,7 +61,7 @@ TEST(OctreeTools, ReadBothFormats) {
   EXPECT_GT(expected[1], 3);   // 2 pi 3^2 0.1 = 5.7, or somewhat more or less by the cells it cuts
   const auto from_ot = volumes(converted(folder.path(), "tree.ot", ot));
   const auto from_bt = volumes(converted(folder.path(), "tree.bt", octree_to_bt(ot)));
-  for (int k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_NEAR(from_ot[k], expected[k], 1e-6);
     EXPECT_NEAR(from_bt[k], expected[k], 1e-6);
   }
