@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 #include "commands.hpp"
 #include "console.hpp"
@@ -19,7 +20,7 @@ namespace hmt::apps {
 namespace {
 
 struct MapArguments {
-  std::filesystem::path log;
+  std::vector<std::filesystem::path> parts;
   std::filesystem::path map;
   bool force = false;
   double keyframe_angle_deg = 0;
@@ -93,11 +94,12 @@ int report_losses(const submap::LogReport& log) {
 int map_log(const MapArguments& arguments, const Globals& globals) {
   submap::Options options = arguments.options;
   options.track.keyframe_angle_rad = arguments.keyframe_angle_deg * std::numbers::pi / 180;
+  options.log.further_parts.assign(arguments.parts.begin() + 1, arguments.parts.end());
   const auto start = std::chrono::steady_clock::now();
   const auto existing =
       arguments.force ? submap::MapFile::Existing::replace : submap::MapFile::Existing::resume;
-  const submap::BuildResult result =
-      submap::build_map(arguments.log, arguments.map, options, existing, make_run(globals));
+  const submap::BuildResult result = submap::build_map(arguments.parts.front(), arguments.map,
+                                                       options, existing, make_run(globals));
   const submap::HybridMap map = result.file.load_map();
   nlohmann::ordered_json object = summary(map);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
@@ -118,7 +120,11 @@ Action add_map(CLI::App& command) {
   auto arguments = std::make_shared<MapArguments>();  // shared by CLI11's options and the action
   submap::Options& options = arguments->options;
   arguments->keyframe_angle_deg = options.track.keyframe_angle_rad * 180 / std::numbers::pi;
-  command.add_option("LOG", arguments->log, std::string("Log to map: ") + kLogFormats)->required();
+  command
+      .add_option(
+          "LOG", arguments->parts,
+          std::string("Log to map, or the parts of a split one in their order: ") + kLogFormats)
+      ->required();
   command.add_option("-o,--output", arguments->map, "Map file to make, or to go on with")
       ->required();
   command.add_flag("--force", arguments->force, "Begin anew even if the map file exists");

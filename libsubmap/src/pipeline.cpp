@@ -165,6 +165,10 @@ BuildResult build_map(const std::filesystem::path& log, const std::filesystem::p
   origin.log_digest = log_digest(log);
   if (!options.log.odometry_file.empty())
     origin.log_digest += log_digest(options.log.odometry_file);
+  for (const std::filesystem::path& part : options.log.further_parts) {
+    origin.log_path.append(" ").append(part.string());
+    origin.log_digest += log_digest(part);
+  }
   origin.options_json = to_json(options);
   origin.program_version = HMTMAP_VERSION;
   // A log that cannot be read costs nobody the map that it was to replace.

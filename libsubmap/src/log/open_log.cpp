@@ -7,6 +7,7 @@
 #include "cloud/cloud_folder.hpp"
 #include "hmt/submap/log/log_reader.hpp"
 #include "mrclam_reader.hpp"
+#include "parts_reader.hpp"
 #include "recording/recording.hpp"
 #include "relations_reader.hpp"
 #include "ros/recording_reader.hpp"
@@ -24,14 +25,19 @@ using Reader = std::unique_ptr<LogReader>;
 struct Format {
   bool (*is)(const fs::path& path, std::string_view head);
   Reader (*open)(const fs::path& path, const LogOptions& options);
+  bool can_be_split = false;
 };
 
 bool is_other_text(const fs::path& path, std::string_view /*head*/) {
   return !fs::is_directory(path);
 }
 
-Reader open_carmen(const fs::path& path, const LogOptions& /*options*/) {
-  return std::make_unique<CarmenReader>(path);
+Reader open_carmen(const fs::path& path, const LogOptions& options) {
+  if (options.further_parts.empty()) return std::make_unique<CarmenReader>(path);
+  std::vector<fs::path> parts = {path};
+  parts.insert(parts.end(), options.further_parts.begin(), options.further_parts.end());
+  return std::make_unique<PartsReader>(
+      std::move(parts), [](const fs::path& part) { return std::make_unique<CarmenReader>(part); });
 }
 
 Reader open_ros(const fs::path& path, const LogOptions& options) {
@@ -99,22 +105,41 @@ Reader open_clouds(const fs::path& path, const LogOptions& options) {
 
 /// The first that fits is taken.
 constexpr std::array kFormats = {
-    Format{is_recording, open_ros},           Format{is_mrclam, open_mrclam},
+    Format{is_recording, open_ros, true},     Format{is_mrclam, open_mrclam},
     Format{is_clouds, open_clouds},           Format{is_relations, open_relations},
-    Format{is_pose_graph, refuse_pose_graph}, Format{is_other_text, open_carmen}};
+    Format{is_pose_graph, refuse_pose_graph}, Format{is_other_text, open_carmen, true}};
+
+/// Null for a folder of no known format.
+const Format* format_of(const fs::path& path) {
+  const std::string head = fs::is_directory(path) ? "" : first_bytes(path);
+  const auto format =
+      std::ranges::find_if(kFormats, [&](const Format& f) { return f.is(path, head); });
+  return format == kFormats.end() ? nullptr : &*format;
+}
+
+/// What cannot be read is said before anything is.
+void check_parts(const fs::path& path, const Format* format, const LogOptions& options) {
+  for (const fs::path& part : options.further_parts) {
+    if (!format->can_be_split)
+      throw InputError(path.string() + ": goes on with " + part.string() +
+                       ", but only CARMEN logs and recordings of ROS can be given in parts");
+    if (format_of(part) != format)
+      throw InputError(part.string() + ": not of the format of " + path.string() +
+                       ", the part before it");
+  }
+}
 
 }  // namespace
 
 std::unique_ptr<LogReader> open_log(const fs::path& path, const LogOptions& options) {
-  const std::string head = fs::is_directory(path) ? "" : first_bytes(path);
-  const auto format =
-      std::ranges::find_if(kFormats, [&](const Format& f) { return f.is(path, head); });
-  if (format == kFormats.end())
+  const Format* format = format_of(path);
+  if (format == nullptr)
     throw InputError(path.string() +
                      ": a folder without files of a known log format; it must hold bags, clouds "
                      "(pcd, ply, bin) or the files of MRCLAM itself, not in folders below");
   if (options.robot && format->open != open_mrclam)
     throw InputError(path.string() + ": holds one robot; --robot is for folders of several");
+  check_parts(path, format, options);
   return format->open(path, options);
 }
 

@@ -22,6 +22,15 @@ inline void add_loss(LogReport& report, const std::string& what, const std::stri
   report.first_places.try_emplace(what, place);
 }
 
+/// Adds what another reader counted.
+inline void add_report(const LogReport& other, LogReport& report) {
+  report.observations += other.observations;
+  report.odometry_records += other.odometry_records;
+  for (const auto& [what, times] : other.notes) report.notes[what] += times;
+  for (const auto& [what, times] : other.losses) report.losses[what] += times;
+  report.first_places.insert(other.first_places.begin(), other.first_places.end());
+}
+
 /// For the end of an error text: a loss and where it was first, or nothing where none was counted.
 inline std::string first_loss(const LogReport& report) {
   if (report.losses.empty()) return {};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 
 #include "../line_source.hpp"
@@ -33,8 +34,10 @@ constexpr std::array kFormats = {Format{Ros1Bag::begins_with, make<Ros1Bag>},
                                  Format{McapFile::begins_with, make<McapFile>},
                                  Format{SqliteBag::begins_with, make<SqliteBag>}};
 
-std::vector<fs::path> parts_of(const fs::path& folder) {
-  return files_in_natural_order(folder, {".bag", ".mcap", ".db3"});
+/// A file itself, of a folder its files.
+std::vector<fs::path> parts_of(const fs::path& path) {
+  if (!fs::is_directory(path)) return {path};
+  return files_in_natural_order(path, {".bag", ".mcap", ".db3"});
 }
 
 std::unique_ptr<Recording> open_file(const fs::path& path) {
@@ -42,10 +45,6 @@ std::unique_ptr<Recording> open_file(const fs::path& path) {
   for (const Format& format : kFormats)
     if (format.begins_with(head)) return format.open(path);
   throw InputError(path.string() + ": no ROS 1 bag, MCAP file or ROS 2 sqlite3 bag");
-}
-
-void add_counts(const std::map<std::string, int64_t>& from, std::map<std::string, int64_t>& to) {
-  for (const auto& [what, times] : from) to[what] += times;
 }
 
 /// The files of a split recording, one after the other.
@@ -80,7 +79,7 @@ class SplitRecording : public Recording {
     try {
       open_next();
     } catch (const InputError& error) {
-      add_loss(report_, "files of the folder that cannot be read", error.what());
+      add_loss(report_, "parts that cannot be read", error.what());
     }
   }
 
@@ -93,10 +92,7 @@ class SplitRecording : public Recording {
   }
 
   void close_part() {
-    add_counts(part_->report().notes, report_.notes);
-    add_counts(part_->report().losses, report_.losses);
-    report_.first_places.insert(part_->report().first_places.begin(),
-                                part_->report().first_places.end());
+    add_report(part_->report(), report_);
     bytes_before_ += part_->bytes_read();
     part_.reset();
   }
@@ -117,9 +113,13 @@ bool is_recording(const fs::path& path, std::string_view head) {
   return std::ranges::any_of(kFormats, [&](const Format& f) { return f.begins_with(head); });
 }
 
-std::unique_ptr<Recording> open_recording(const fs::path& path) {
-  if (!fs::is_directory(path)) return open_file(path);
-  return std::make_unique<SplitRecording>(parts_of(path));
+std::unique_ptr<Recording> open_recording(const fs::path& path,
+                                          const std::vector<fs::path>& further_parts) {
+  if (!fs::is_directory(path) && further_parts.empty()) return open_file(path);
+  std::vector<fs::path> parts = parts_of(path);
+  for (const fs::path& further : further_parts)
+    std::ranges::move(parts_of(further), std::back_inserter(parts));
+  return std::make_unique<SplitRecording>(std::move(parts));
 }
 
 }  // namespace hmt::submap

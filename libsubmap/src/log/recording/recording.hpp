@@ -51,7 +51,10 @@ class Recording {
 bool is_recording(const std::filesystem::path& path, std::string_view head);
 
 /// Opens a ROS 1 bag, an MCAP file, a ROS 2 sqlite3 bag, or a folder of such files, which are read
-/// one after the other in natural order. Throws InputError with the reason for what is none.
-std::unique_ptr<Recording> open_recording(const std::filesystem::path& path);
+/// one after the other in natural order, and after them `further_parts`. Throws InputError with the
+/// reason for what is none.
+std::unique_ptr<Recording> open_recording(
+    const std::filesystem::path& path,
+    const std::vector<std::filesystem::path>& further_parts = {});
 
 }  // namespace hmt::submap

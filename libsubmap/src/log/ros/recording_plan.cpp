@@ -40,7 +40,7 @@ std::optional<int64_t> median(std::vector<int64_t> values) {
 /// Looks at the first part of a recording.
 class Survey {
  public:
-  explicit Survey(const std::filesystem::path& path) : recording_(open_recording(path)) {
+  explicit Survey(std::unique_ptr<Recording> recording) : recording_(std::move(recording)) {
     while (!has_enough()) {
       const auto message = recording_->next();
       if (!message) break;
@@ -246,7 +246,7 @@ class Choice {
 }  // namespace
 
 RecordingPlan plan_recording(const std::filesystem::path& path, const LogOptions& options) {
-  const Survey survey(path);
+  const Survey survey(open_recording(path, options.further_parts));
   return Choice(path, options, survey).make();
 }
 

@@ -62,8 +62,9 @@ Pose in_plane(const Pose& T) {
 RecordingReader::RecordingReader(const std::filesystem::path& path, const LogOptions& options)
     : path_(path),
       plan_(plan_recording(path, options)),
-      recording_(open_recording(path)),
+      recording_(open_recording(path, options.further_parts)),
       bytes_total_(file_bytes(path)) {
+  for (const std::filesystem::path& part : options.further_parts) bytes_total_ += file_bytes(part);
   if (plan_.uses_time_of_receipt)
     note("scans and odometry have different clocks: their times of receipt are taken",
          path.string());

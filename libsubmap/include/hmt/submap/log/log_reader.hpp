@@ -57,6 +57,9 @@ struct LogOptions {
   std::string odometry_file;
   /// Robot of a folder with the logs of several, >= 0; must be given for such a folder.
   std::optional<int> robot = std::nullopt;
+  /// What goes on where the log ends: the further parts of a split recording, in their order. Of
+  /// CARMEN logs and recordings of ROS, all parts of one format.
+  std::vector<std::filesystem::path> further_parts = {};
 
   bool operator==(const LogOptions&) const = default;
 };
@@ -67,8 +70,8 @@ struct LogOptions {
 ///   ROS 1 bags, MCAP files, ROS 2 sqlite3 bags, or a folder of these;
 ///   a folder of clouds (PCD, PLY or KITTI's bin) with LogOptions::odometry_file;
 ///   a folder of MRCLAM files.
-/// Throws InputError for a missing, unreadable, empty or unknown file, and for topics and robots
-/// that are not there or not obvious.
+/// Throws InputError for a missing, unreadable, empty or unknown file, for topics and robots that
+/// are not there or not obvious, and for parts that do not go together.
 std::unique_ptr<LogReader> open_log(const std::filesystem::path& path,
                                     const LogOptions& options = {});
 
