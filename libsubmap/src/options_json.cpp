@@ -22,8 +22,7 @@ std::string to_json(const Options& options) {
   json["overlap"] = {{"max_mahalanobis", options.overlap.max_mahalanobis},
                      {"min_overlap", options.overlap.min_overlap}};
   json["local"] = {{"min_overlap", options.local.min_overlap}};
-  json["sections"] = {{"most_at_once", options.sections.most_at_once},
-                      {"keyframes", options.sections.keyframes}};
+  json["sections"] = {{"keyframes", options.sections.keyframes}};
   json["partition"] = {{"tau", options.partition.tau},
                        {"min_keyframes", options.partition.min_keyframes},
                        {"sequential", options.partition.sequential},
@@ -49,7 +48,6 @@ Options options_from_json(const std::string& text) {
     get("overlap", "max_mahalanobis", options.overlap.max_mahalanobis);
     get("overlap", "min_overlap", options.overlap.min_overlap);
     get("local", "min_overlap", options.local.min_overlap);
-    get("sections", "most_at_once", options.sections.most_at_once);
     get("sections", "keyframes", options.sections.keyframes);
     get("partition", "tau", options.partition.tau);
     get("partition", "min_keyframes", options.partition.min_keyframes);

@@ -66,11 +66,9 @@ class Stages {
 };
 
 void check(const SectionOptions& options) {
-  for (const auto& [name, value] :
-       {std::pair{"most_at_once", options.most_at_once}, std::pair{"keyframes", options.keyframes}})
-    if (value < 1 || value > 1000000)
-      throw InputError(std::string("sections: ") + name + " is " + std::to_string(value) +
-                       ", must be in [1, 1000000]");
+  if (options.keyframes < 1 || options.keyframes > 1000000)
+    throw InputError("sections: keyframes is " + std::to_string(options.keyframes) +
+                     ", must be in [1, 1000000]");
 }
 
 void improve(MapFile& file, const Track& track, int round, const Options& options, const Run& run,

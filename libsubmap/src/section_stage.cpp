@@ -21,7 +21,7 @@ namespace {
 constexpr double kLeastGrowth = 0.5;
 /// Travel between the places that are searched for at first: what ties them to the map ties what
 /// lies between them well enough to be registered without a search.
-constexpr double kFirstSpacing_m = 8;
+constexpr double kFirstSpacing_m = 4;
 /// Bound on the rounds for a section in which loops are still found late.
 constexpr int kMaxRounds = 4;
 
@@ -108,10 +108,12 @@ bool close_loops(Known& known, const MapFile& file, double query_spacing_m, cons
 }
 
 /// Each keyframe that shows nothing new hangs on the one that shows most of it. The last one stays
-/// for the next section to begin with.
-std::vector<int> hosts(const Known& known) {
+/// for the next section to begin with. Where none follows all stay: they tell a little more, and
+/// nobody has to make room.
+std::vector<int> hosts(const Known& known, bool is_last) {
   std::vector<int> host(known.track.keyframes.size());
   std::iota(host.begin(), host.end(), 0);
+  if (is_last) return host;
   const auto stays = [&](int k) {
     return known.overlap.is_reference[static_cast<size_t>(k)] != 0 || k + 1 == std::ssize(host);
   };
@@ -129,10 +131,6 @@ std::vector<int> hosts(const Known& known) {
 
 }  // namespace
 
-bool is_long(const Track& track, const SectionOptions& options) {
-  return track.keyframes.size() > static_cast<size_t>(options.most_at_once);
-}
-
 Track add_section(MapFile& file, const Track& track, const std::string& stage,
                   const Options& options, const Run& run) {
   Known known = open_section(file, track, options.sections);
@@ -141,7 +139,8 @@ Track add_section(MapFile& file, const Track& track, const std::string& stage,
     relate(known, file, options, run);
     if (round == kMaxRounds || !close_loops(known, file, LoopProblem{}.query_spacing_m, run)) break;
   }
-  const std::vector<int> host = hosts(known);
+  const bool is_last = known.track.keyframes.size() == track.keyframes.size();
+  const std::vector<int> host = hosts(known, is_last);
   const std::vector<int> number = numbers_of_kept(host, track.keyframes.size());
   Track thinned = thin_track(track, host, known.T_world_keyframe);
   std::vector<Pose> T_world_kept;

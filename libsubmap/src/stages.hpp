@@ -15,16 +15,14 @@ namespace hmt::submap {
 /// The stage after which no further round is made.
 inline const std::string kSettled = "settled";
 
-/// Reads the log once: keyframes, odometry, landmarks and their sightings, a first estimate. Of a
-/// log that is gone through in sections only the first keyframe is estimated.
+/// Reads the log once: keyframes, odometry, landmarks and their sightings, a first estimate: of all
+/// keyframes of a log of landmarks, of the first one of others, which are gone through in sections.
 void read_and_track(MapFile& file, const std::string& stage, const std::filesystem::path& log,
                     const Options& options, const Run& run);
 
-/// Whether a track is gone through in sections.
-bool is_long(const Track& track, const SectionOptions& options);
-
-/// Adds the next section of a long track to the keyframes that are estimated: overlap,
-/// registrations and loop closures among its keyframes and with those before, in rounds. Then its
+/// Adds the next section of a track to the keyframes that are estimated: overlap, registrations and
+/// loop closures among its keyframes and with those before, in rounds. Loops come first: what is
+/// registered before they are closed may be drawn to the wrong side of a wall. Then its
 /// keyframes that show nothing new cease to be keyframes: they and what hangs on them hang on the
 /// one that shows most of what they do. So a robot that goes its rounds for hours keeps a map of
 /// the size of what it saw, as in reduced pose graphs [Johannsson 2013]. Returns the track as the

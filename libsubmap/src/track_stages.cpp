@@ -40,15 +40,16 @@ void read_and_track(MapFile& file, const std::string& stage, const std::filesyst
           ? track_landmarks(*reader, options.track, keep, run)
           : LandmarkTrack{track_log(*reader, options.track, keep, run), {}, {}};
   const Track& track = result.track;
-  const bool in_sections = result.sightings.empty() && is_long(track, options.sections);
+  // Logs of landmarks are taken as a whole; of others sections add all but the first keyframe.
+  const bool as_a_whole = reader->has_landmarks_only();
   writer.put_track(track);
-  writer.put_constraints(in_sections ? std::vector<Constraint>{} : track.odometry);
+  writer.put_constraints(as_a_whole ? track.odometry : std::vector<Constraint>{});
   writer.put_sightings(result.sightings);
   writer.put_landmark_names(result.names);
   writer.put_loops({});
   std::vector<Pose> estimate =
       result.sightings.empty() ? track_poses(track) : bundle_in_order(track, result.sightings, run);
-  if (in_sections) estimate.resize(1);
+  if (!as_a_whole) estimate.resize(1);
   writer.put_estimate(estimate);
   writer.commit();
 }

@@ -39,7 +39,7 @@ class Sections : public testing::Test {
 
   static Options options() {
     Options options;
-    options.sections = {.most_at_once = 300, .keyframes = 250};
+    options.sections = {.keyframes = 250};
     return options;
   }
   static HybridMap map(const std::string& name, const Options& options, const submap::Run& run) {
@@ -92,11 +92,8 @@ TEST_F(Sections, GoOnAfterAStopAndEndWithTheSameMapOnTwoThreads) {
 }
 
 TEST_F(Sections, RefuseSizesThatAreNone) {
-  Options none = options();
+  Options none;
   none.sections.keyframes = 0;
-  EXPECT_THROW(map("none.hmt", none, {}), InputError);
-  none = options();
-  none.sections.most_at_once = 0;
   EXPECT_THROW(map("none.hmt", none, {}), InputError);
 }
 

@@ -17,14 +17,11 @@
 
 namespace hmt::submap {
 
-/// Sections that a long log is gone through in. Memory follows them and the places that the robot
-/// saw, not the log; smaller ones are re-estimated with what was known more often.
+/// Sections that a log is gone through in. Memory follows them and the places that the robot saw,
+/// not the log; smaller ones are re-estimated with what was known more often.
 struct SectionOptions {
-  /// Logs of up to so many keyframes are taken as a whole, [1, 1000000]. As many hold two
-  /// kilometres of new places, more than the loops of most logs.
-  int most_at_once = 5000;
   /// Keyframes of a section, [1, 1000000]: some rounds through a building, over which the robot
-  /// drifts so little that the loop search finds back.
+  /// drifts so little that the loop search finds back. The last one may have half as many more.
   int keyframes = 2000;
 };
 
@@ -69,7 +66,7 @@ struct BuildResult {
 
 /// Makes a hybrid map of a log, or goes on where an earlier run with the same log and options was
 /// stopped:
-///   read and track -> sections, of a long log -> (overlap -> submaps -> loop closures) until the
+///   read and track -> sections -> (overlap -> submaps -> loop closures) until the
 ///   poses stand -> OctoMaps
 /// Every arrow commits its result to the map file. Same map for any number of threads.
 /// Throws InputError for options out of range and for a log or a map file that cannot be used,
