@@ -21,7 +21,8 @@ void add_log_options(CLI::App& command, submap::LogOptions& options) {
   command
       .add_option(
           "--odometry", options.odometry_file,
-          "Of a folder of clouds: their poses by odometry, TUM or KITTI, line N for cloud N")
+          "Of a folder of clouds: their poses by odometry, TUM or KITTI, line N for cloud N; "
+          "without it the clouds alone tell the way")
       ->type_name("FILE");
   command
       .add_option("--robot", options.robot,

@@ -16,6 +16,8 @@ inline constexpr size_t kLocalMapKeyframes = 30;
 class LocalMap {
  public:
   void add(const Pose& T_track_robot, Surface surface);
+  /// Nothing is left but what is added from now on.
+  void forget() { surfaces_.clear(); }
   /// In the track's frame.
   const RegistrationTarget& target() const { return target_; }
 

@@ -3,12 +3,14 @@
 #include "locate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "hmt/submap/registration/correlative.hpp"
 #include "information.hpp"
+#include "search_space.hpp"
 #include "seen_through.hpp"
 
 namespace hmt::submap {
@@ -22,6 +24,8 @@ constexpr double kLeastCloudInlierFraction = 0.3;
 // Clouds fill the plane, so no search from above helps; surfaces stand metres apart, so a wide
 // search for corresponding points does.
 constexpr double kWideCorrespondence_m = 2.0;
+// From a pose found on a coarse map.
+constexpr double kNearCorrespondence_m = 1.0;
 // Chi2 of three degrees of freedom beyond which a prediction is doubted (one in a thousand).
 constexpr double kDoubtful2 = 16;
 // A registration that contradicts the odometry needs more inliers: wheels slip and clocks jitter
@@ -56,6 +60,8 @@ class Locator {
   Registration search(const Registration& first) const;
   /// In space: registration from farther away.
   Registration search_wide(const Registration& first) const;
+  /// In space: registrations from all around.
+  Registration search_around(const Registration& first) const;
   bool is_doubtful(const Registration& found) const {
     return mahalanobis2(found) > kDoubtful2 || !fits(found);
   }
@@ -79,6 +85,9 @@ class Locator {
     return correlative_search(surface_, map_, prediction_.T_map_robot, window, kStarts,
                               least_score);
   }
+  /// The odometry is as wrong as the pose says, but only in that direction: along a corridor, of
+  /// which the pose knows nothing, it still counts.
+  PosePrior prior_contradicted_by(const Pose& T_map_robot) const;
   Registration best_of(const std::vector<CorrelativeMatch>& matches,
                        const Registration& first) const;
   /// `near` where there is no match, or two that differ.
@@ -120,20 +129,21 @@ Registration Locator::near_prediction(double max_correspondence_m) const {
   return register_surface(surface_, map_, prediction_.T_map_robot, options);
 }
 
+PosePrior Locator::prior_contradicted_by(const Pose& T_map_robot) const {
+  const Vector6d error = graph::boxminus(T_map_robot, prediction_.T_map_robot);
+  return {prediction_.T_map_robot,
+          inverse_in(space_, prediction_.covariance + 4 * error * error.transpose())};
+}
+
 Registration Locator::best_of(const std::vector<CorrelativeMatch>& matches,
                               const Registration& first) const {
   std::vector<Pose> starts{first.T_target_source};
   for (const CorrelativeMatch& match : matches) starts.push_back(match.T_target_source);
   Registration best = first;
   for (const Pose& start : starts) {
-    // The odometry is as wrong as the start says, but only in that direction: along a corridor, of
-    // which the start knows nothing, it still counts.
-    const Vector6d error = graph::boxminus(start, prediction_.T_map_robot);
     RegistrationOptions options;
     options.space = space_;
-    options.prior =
-        PosePrior{prediction_.T_map_robot,
-                  inverse_in(space_, prediction_.covariance + 4 * error * error.transpose())};
+    options.prior = prior_contradicted_by(start);
     const Registration found = register_surface(surface_, map_, start, options);
     if (credit(found) > credit(best)) best = found;
   }
@@ -169,6 +179,25 @@ Registration Locator::search_wide(const Registration& first) const {
   return credit(found) > credit(first) ? found : first;
 }
 
+Registration Locator::search_around(const Registration& first) const {
+  if (first.inlier_fraction >= kClearInlierFraction) return first;
+  const std::array guesses{prediction_.T_map_robot, prediction_.T_map_latest};
+  Registration best = first;
+  double best_share = met_share(surface_, map_, first.T_target_source);
+  for (const SpaceMatch& match : search_space(surface_, map_, guesses)) {
+    RegistrationOptions options;
+    options.space = space_;
+    options.max_correspondence_m = kNearCorrespondence_m;
+    options.prior = prior_contradicted_by(match.T_map_robot);
+    const Registration found = register_surface(surface_, map_, match.T_map_robot, options);
+    const double share = met_share(surface_, map_, found.T_target_source);
+    if (share <= best_share) continue;
+    best = found;
+    best_share = share;
+  }
+  return best;
+}
+
 }  // namespace
 
 LocatedSurface locate(Space space, const Surface& surface, const RegistrationTarget& map,
@@ -181,6 +210,8 @@ LocatedSurface locate(Space space, const Surface& surface, const RegistrationTar
     located.searched = true;
     located.registration = space == Space::se2 ? locator.search(located.registration)
                                                : locator.search_wide(located.registration);
+    if (blind && space == Space::se3)
+      located.registration = locator.search_around(located.registration);
   }
   located.fits = locator.is_trusted(located.registration);
   return located;

@@ -9,8 +9,6 @@
 namespace hmt::submap {
 namespace {
 
-// Points closer than this on one surface say the same; far below the size of furniture.
-constexpr double kMergeCell_m = 0.05;
 constexpr double kSearchCell_m = 0.25;
 // In space a cell of twice the side holds as many points, and there are fewer to look into.
 constexpr double kCloudSearchCell_m = 0.5;
@@ -26,9 +24,9 @@ struct PlacedPoint {
   uint32_t index = 0;
 };
 
-uint64_t merge_key(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
-  const auto part = [](double v) {
-    const double cell = std::clamp(std::floor(v / kMergeCell_m), -524288.0, 524287.0);
+uint64_t merge_key(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double cell_m) {
+  const auto part = [cell_m](double v) {
+    const double cell = std::clamp(std::floor(v / cell_m), -524288.0, 524287.0);
     return static_cast<uint64_t>(static_cast<int64_t>(cell) + 524288);
   };
   Eigen::Index axis = 0;
@@ -37,7 +35,8 @@ uint64_t merge_key(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) 
   return (part(point.x()) << 43) | (part(point.y()) << 23) | (part(point.z()) << 3) | side;
 }
 
-std::vector<PlacedPoint> place(std::span<const RegistrationTarget::Placed> surfaces) {
+std::vector<PlacedPoint> place(std::span<const RegistrationTarget::Placed> surfaces,
+                               double cell_m) {
   std::vector<PlacedPoint> placed;
   for (size_t s = 0; s < surfaces.size(); ++s) {
     const Surface& surface = *surfaces[s].surface;
@@ -48,7 +47,7 @@ std::vector<PlacedPoint> place(std::span<const RegistrationTarget::Placed> surfa
       PlacedPoint p;
       p.point = R * surface.points_robot[i] + T_target_robot.translation;
       p.normal = R * surface.normals_robot[i];
-      p.key = merge_key(p.point, p.normal);
+      p.key = merge_key(p.point, p.normal, cell_m);
       p.weight = 1 / (surface.sigma_m[i] * surface.sigma_m[i]);
       p.normal_variance = surface.normal_sigma_rad[i] * surface.normal_sigma_rad[i];
       p.spacing_m = surface.spacing_m[i];
@@ -87,9 +86,9 @@ SurfaceElement merge(std::span<const PlacedPoint> points) {
 
 }  // namespace
 
-RegistrationTarget::RegistrationTarget(std::span<const Placed> surfaces)
+RegistrationTarget::RegistrationTarget(std::span<const Placed> surfaces, double cell_m)
     : impl_(std::make_unique<Impl>()) {
-  std::vector<PlacedPoint> placed = place(surfaces);
+  std::vector<PlacedPoint> placed = place(surfaces, cell_m);
   std::sort(placed.begin(), placed.end(), [](const PlacedPoint& a, const PlacedPoint& b) {
     return std::pair(a.key, a.index) < std::pair(b.key, b.index);
   });
@@ -101,9 +100,10 @@ RegistrationTarget::RegistrationTarget(std::span<const Placed> surfaces)
     points.push_back(impl_->elements.back().point);
     begin = end;
   }
-  const bool planar = std::all_of(points.begin(), points.end(),
-                                  [](const Eigen::Vector3d& p) { return p.z() == 0; });
-  impl_->grid = PointGrid(points, planar ? kSearchCell_m : kCloudSearchCell_m);
+  impl_->planar = std::all_of(points.begin(), points.end(),
+                              [](const Eigen::Vector3d& p) { return p.z() == 0; });
+  impl_->grid =
+      PointGrid(points, impl_->planar ? kSearchCell_m : std::max(kCloudSearchCell_m, 2 * cell_m));
 }
 
 RegistrationTarget::~RegistrationTarget() = default;

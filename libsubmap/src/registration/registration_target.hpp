@@ -21,6 +21,7 @@ struct SurfaceElement {
 struct RegistrationTarget::Impl {
   std::vector<SurfaceElement> elements;
   PointGrid grid;
+  bool planar = true;  ///< all elements lie in z = 0
 };
 
 }  // namespace hmt::submap

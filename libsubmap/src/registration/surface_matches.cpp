@@ -20,6 +20,12 @@ constexpr double kLevel = 0.7;
 constexpr size_t kLeastLevel = 20;
 // Neighbors on one surface are looked for at least this far.
 constexpr double kLeastRadius_m = 0.15;
+// Rings of a lidar lie metres apart on the ground: a narrower search would find those points alone
+// that happen to lie on each other, and leave out what makes sparse clouds fit.
+constexpr double kLeastCloudRadius_m = 0.5;
+// A wider search in space narrows by steps: while a cloud is turned by ten degrees, only what is
+// near it fits, and what fits would bound the search at once.
+constexpr double kNarrowing = 0.7;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
 }  // namespace
@@ -103,8 +109,10 @@ void SurfaceMatcher::shrink() {
   const double noise_m = std::sqrt(variance / static_cast<double>(matches_.size()));
   const double wanted_m = kScaleDeviations * std::max(noise_m, kDeviationOverMedian * median_m);
   shrunk_ = wanted_m < 0.99 * scale_m_;
-  scale_m_ = std::min(scale_m_, wanted_m);
-  radius_m_ = std::min(radius_m_, std::max(kLeastRadius_m, 2 * scale_m_));
+  const bool stepwise = !target_->planar && scale_m_ > kLeastCloudRadius_m;
+  scale_m_ = std::min(scale_m_, stepwise ? std::max(wanted_m, kNarrowing * scale_m_) : wanted_m);
+  const double least_m = target_->planar ? kLeastRadius_m : kLeastCloudRadius_m;
+  radius_m_ = std::min(radius_m_, std::max(least_m, 2 * scale_m_));
 }
 
 }  // namespace hmt::submap

@@ -102,6 +102,13 @@ Track track_log(LogReader& log, const TrackOptions& options,
     run.log_warning("odometry jumps " + std::to_string(counts.odometry_jumps) +
                     " times; the steps are taken from registration");
   }
+  if (counts.lost > 0) {
+    track.log.notes["clouds without odometry that fit nowhere, a guess took their place"] +=
+        counts.lost;
+    run.log_warning("lost " + std::to_string(counts.lost) +
+                    " times: without odometry these clouds fit nowhere on those before; how the "
+                    "robot went there is a guess");
+  }
   return track;
 }
 

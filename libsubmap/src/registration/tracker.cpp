@@ -78,8 +78,8 @@ void Tracker::add(const Observation& observation, Surface surface) {
     step_covariance *= std::exp2(2 * std::min(refused_, kMostRefused));
     T_keyframe_odometry_ = T_keyframe_odometry_ * step;
     const Matrix6d covariance = compose_covariance(step, covariance_latest_, step_covariance);
-    const Prediction prediction{T_track_latest_ * step, covariance, inverse_in(space_, covariance),
-                                step.translation.norm()};
+    const Prediction prediction{T_track_latest_ * step, T_track_latest_, covariance,
+                                inverse_in(space_, covariance), step.translation.norm()};
     const Estimate found = estimate(surface, prediction);
     learn_odometry(motion, prediction, found);
     latest_step_ = relative_pose(T_track_latest_, found.T_track_robot);
@@ -88,17 +88,26 @@ void Tracker::add(const Observation& observation, Surface surface) {
     covariance_latest_ =
         found.registered ? inverse_in(space_, inverse_in(space_, covariance) + found.information)
                          : covariance;
-    const Pose T_keyframe_robot =
-        relative_pose(track_.keyframes.back().T_track_robot, T_track_latest_);
-    if (T_keyframe_robot.translation.norm() >= options_.keyframe_distance_m ||
-        rotation_angle_rad(T_keyframe_robot) >= options_.keyframe_angle_rad)
-      add_keyframe(observation, found, std::move(surface));
+    if (is_keyframe(found)) add_keyframe(observation, found, std::move(surface));
   }
   T_odom_latest_ = observation.T_odom_robot;
   stamp_latest_s_ = observation.stamp_s;
   const Keyframe& keyframe = track_.keyframes.back();
   track_.observations.push_back({observation.index, observation.stamp_s, keyframe.id,
                                  relative_pose(keyframe.T_track_robot, T_track_latest_)});
+}
+
+bool Tracker::is_keyframe(const Estimate& estimate) {
+  if (space_ == Space::se3 && !odometry_moves_ && !estimate.registered) {
+    // Nothing tells where it is: what comes is tracked from here.
+    map_.forget();
+    ++counts_.lost;
+    return true;
+  }
+  const Pose T_keyframe_robot =
+      relative_pose(track_.keyframes.back().T_track_robot, estimate.T_track_robot);
+  return T_keyframe_robot.translation.norm() >= options_.keyframe_distance_m ||
+         rotation_angle_rad(T_keyframe_robot) >= options_.keyframe_angle_rad;
 }
 
 Tracker::Motion Tracker::predict_step(const Observation& observation) {

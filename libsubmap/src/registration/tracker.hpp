@@ -17,6 +17,7 @@ struct TrackCounts {
   int64_t searched = 0;       ///< registered after a search around the odometry's guess
   int64_t odometry_only = 0;  ///< nothing to register, or no registration to be trusted
   int64_t odometry_jumps = 0;
+  int64_t lost = 0;  ///< without odometry and registered nowhere, so that a guess took its place
 };
 
 /// The front end, one observation at a time.
@@ -51,6 +52,8 @@ class Tracker {
   void start(const Observation& observation, Surface surface);
   /// The robot's motion since the latest observation, before its surfaces are looked at.
   Motion predict_step(const Observation& observation);
+  /// Whether an observation becomes a keyframe. One that is lost does, and starts a new local map.
+  bool is_keyframe(const Estimate& estimate);
   /// What a registration tells of the odometry.
   void learn_odometry(const Motion& motion, const Prediction& prediction, const Estimate& found);
   void add_keyframe(const Observation& observation, const Estimate& estimate, Surface surface);

@@ -210,13 +210,18 @@ TEST_F(CloudFolderLog, LossesAreCountedAndTheRestIsUsed) {
   EXPECT_EQ(damaged.report.losses.at("clouds that cannot be read: the file is empty"), 1);
 }
 
+TEST_F(CloudFolderLog, NeedsNoOdometry) {
+  const std::vector<Observation> all = test::read_log(folder_.path());
+  ASSERT_EQ(all.size(), 3);
+  for (const Observation& observation : all) EXPECT_EQ(observation.T_odom_robot, Pose{});
+}
+
 TEST_F(CloudFolderLog, WhatDoesNotFitIsRefused) {
   const auto refused = [&] { return reason([&] { summary(); }); };
   odometry("1 2 3\n");
   EXPECT_THAT(refused(), HasSubstr("neither a pose of TUM"));
   odometry(std::string(kTum) + "9 0 0 0 0 0 0 1\n");
   EXPECT_THAT(refused(), HasSubstr("3 clouds and 4 poses"));
-  EXPECT_THAT(reason([&] { open_log(folder_.path()); }), HasSubstr("--odometry FILE"));
   test::write_file(folder_.path() / "a.ply", "ply");
   EXPECT_THAT(refused(), HasSubstr("several formats"));
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <random>
 
 #include "hmt/submap/log/simulation.hpp"
 #include "real_data.hpp"
@@ -18,7 +19,8 @@ namespace {
 // A log in memory.
 class MemoryLog : public LogReader {
  public:
-  explicit MemoryLog(std::vector<Observation> observations) : observations_(observations) {}
+  explicit MemoryLog(std::vector<Observation> observations, Space space = Space::se2)
+      : observations_(observations), space_(space) {}
   std::optional<Observation> next() override {
     if (next_ == observations_.size()) return std::nullopt;
     return observations_[next_++];
@@ -26,10 +28,11 @@ class MemoryLog : public LogReader {
   const LogReport& report() const override { return report_; }
   int64_t bytes_read() const override { return static_cast<int64_t>(next_); }
   int64_t bytes_total() const override { return static_cast<int64_t>(observations_.size()); }
-  Space space() const override { return Space::se2; }
+  Space space() const override { return space_; }
 
  private:
   std::vector<Observation> observations_;
+  Space space_;
   size_t next_ = 0;
   LogReport report_;
 };
@@ -150,6 +153,46 @@ TEST(TrackLog, FollowsARobotWithoutOdometry) {
   log.T_world_robot.resize(80);
   for (Observation& observation : log.observations) observation.T_odom_robot = Pose{};
   EXPECT_LT(largest_error_m(track(log.observations), log.T_world_robot, 10), 0.1);
+}
+
+/// A lidar that is carried around in a room, 0.4 m at a time, turning by fits and starts, without
+/// odometry.
+SimulatedLog carried_lidar() {
+  SimulatedLog log;
+  std::mt19937 random(5);
+  for (int k = 0; k < 16; ++k) {
+    const double around = 0.2 * k;
+    log.T_world_robot.push_back(Pose::planar(1 + 2 * std::cos(around), 1 + 2 * std::sin(around),
+                                             around + 0.7 * std::sin(1.1 * k)));
+    log.observations.push_back(test::cloud(test::room(), 3, log.T_world_robot.back(), {}, random));
+    log.observations.back().index = k;
+    log.observations.back().stamp_s = 0.5 * k;
+  }
+  return log;
+}
+
+constexpr auto kLost = "clouds without odometry that fit nowhere, a guess took their place";
+
+TEST(TrackLog, FollowsCloudsWithoutOdometry) {
+  const SimulatedLog log = carried_lidar();
+  MemoryLog reader(log.observations, Space::se3);
+  const Track found = track_log(reader, {}, {}, {});
+  EXPECT_LT(largest_error_m(found, log.T_world_robot, 1), 0.02);
+  EXPECT_LT(largest_error_m(found, log.T_world_robot, 15), 0.05);
+  EXPECT_EQ(found.log.notes.count(kLost), 0);
+}
+
+TEST(TrackLog, TellsWhereCloudsWithoutOdometryFitNowhereAndGoesOn) {
+  SimulatedLog log = carried_lidar();
+  // A room four times as large.
+  for (auto& point : log.observations[7].readings[0].points_sensor) point *= 4;
+  MemoryLog reader(log.observations, Space::se3);
+  const Track found = track_log(reader, {}, {}, {});
+  ASSERT_EQ(found.log.notes.count(kLost), 1);
+  EXPECT_LE(found.log.notes.at(kLost), 2);
+  const Pose is = graph::relative_pose(tracked_pose(found, 9), tracked_pose(found, 15));
+  const Pose should = graph::relative_pose(log.T_world_robot[9], log.T_world_robot[15]);
+  EXPECT_LT((is.translation - should.translation).norm(), 0.05);
 }
 
 TEST(TrackLog, BridgesEmptyScansByOdometry) {

@@ -39,13 +39,13 @@ CloudFolder::CloudFolder(const fs::path& folder, const LogOptions& options)
   if (formats.size() > 1)
     throw InputError(folder.string() + ": clouds of several formats; keep those of one");
   if (options.odometry_file.empty())
-    throw InputError(
-        folder.string() + ": a folder of " + std::to_string(clouds_.size()) +
-        " clouds needs their poses: --odometry FILE (TUM or KITTI, line N for cloud N)");
-  pair_with_odometry(folder, options.odometry_file);
+    poses_.assign(clouds_.size(), {.stamp_s = std::nullopt, .T = Pose{}});
+  else
+    pair_with_odometry(options.odometry_file);
+  read_times(folder / "times.txt");
 }
 
-void CloudFolder::pair_with_odometry(const fs::path& folder, const std::string& odometry_file) {
+void CloudFolder::pair_with_odometry(const std::string& odometry_file) {
   poses_ = read_pose_lines(odometry_file, report_);
   report_.odometry_records = static_cast<int64_t>(poses_.size());
   if (poses_.size() > clouds_.size())
@@ -54,7 +54,9 @@ void CloudFolder::pair_with_odometry(const fs::path& folder, const std::string& 
   if (poses_.size() < clouds_.size())
     add_loss(report_, "clouds behind the end of the odometry", clouds_[poses_.size()].string(),
              static_cast<int64_t>(clouds_.size() - poses_.size()));
-  const fs::path times = folder / "times.txt";
+}
+
+void CloudFolder::read_times(const fs::path& times) {
   if (poses_.empty() || poses_.front().stamp_s || !fs::exists(times)) return;
   const std::vector<double> stamps = read_stamps(times);
   if (stamps.size() != clouds_.size())

@@ -13,7 +13,8 @@
 namespace hmt::submap {
 
 /// Reads a folder of clouds in the robot frame, one file an observation, in natural order of their
-/// names, with the odometry of another file: line N is of cloud N.
+/// names, with the odometry of another file: line N is of cloud N. Without that file the odometry
+/// stands still, which is how a log tells that it has none.
 ///
 /// Stamps are those of the odometry file, or of `times.txt` in the folder (one a line, as KITTI has
 /// it), or absent.
@@ -31,7 +32,8 @@ class CloudFolder : public LogReader {
   static bool is(const std::filesystem::path& folder);
 
  private:
-  void pair_with_odometry(const std::filesystem::path& folder, const std::string& odometry_file);
+  void pair_with_odometry(const std::string& odometry_file);
+  void read_times(const std::filesystem::path& times);
   std::optional<Observation> observation(size_t cloud);
 
   std::vector<std::filesystem::path> clouds_;

@@ -53,7 +53,7 @@ struct LogOptions {
   std::vector<std::string> scan_topics;
   /// Topic of the odometry, nav_msgs/Odometry or /tf; empty: the only one.
   std::string odometry_topic;
-  /// File with the poses of a folder of clouds.
+  /// File with the poses of a folder of clouds; empty: there is none.
   std::string odometry_file;
   /// Robot of a folder with the logs of several, >= 0; must be given for such a folder.
   std::optional<int> robot = std::nullopt;
@@ -68,7 +68,7 @@ struct LogOptions {
 ///   CARMEN text, or relative poses and landmarks as text (Victoria Park), plain or compressed (gz,
 ///   bz2, zst);
 ///   ROS 1 bags, MCAP files, ROS 2 sqlite3 bags, or a folder of these;
-///   a folder of clouds (PCD, PLY or KITTI's bin) with LogOptions::odometry_file;
+///   a folder of clouds (PCD, PLY or KITTI's bin), LogOptions::odometry_file beside it;
 ///   a folder of MRCLAM files.
 /// Throws InputError for a missing, unreadable, empty or unknown file, for topics and robots that
 /// are not there or not obvious, and for parts that do not go together.

@@ -19,7 +19,8 @@ class RegistrationTarget {
     Pose T_target_robot;
     const Surface* surface = nullptr;  ///< copied from; need not outlive the target
   };
-  explicit RegistrationTarget(std::span<const Placed> surfaces);
+  /// `cell_m`: side of the cubes whose points of like normals are merged into one, (0, 1].
+  explicit RegistrationTarget(std::span<const Placed> surfaces, double cell_m = 0.05);
   ~RegistrationTarget();
   RegistrationTarget(RegistrationTarget&&) noexcept;
   RegistrationTarget& operator=(RegistrationTarget&&) noexcept;
