@@ -3,6 +3,7 @@
 #include "information.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <array>
 
@@ -32,6 +33,15 @@ Matrix6d compose_information(Space space, const Pose& T_b_c, const Matrix6d& inf
   const Matrix6d sum = first + information_b_c + kNothing * Matrix6d::Identity();
   const Matrix6d result = first * inverse_in(space, sum) * information_b_c;
   return (result + result.transpose()) / 2;
+}
+
+bool observes_all(Space space, const Matrix6d& information, const Matrix6d& predicted) {
+  const Eigen::ArrayXi used =
+      space == Space::se2 ? Eigen::ArrayXi{{0, 1, 5}} : Eigen::ArrayXi{{0, 1, 2, 3, 4, 5}};
+  const Eigen::MatrixXd measured = information(used, used);
+  const Eigen::MatrixXd prior = predicted(used, used);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(measured, prior);
+  return eigen.eigenvalues()[0] > 1;
 }
 
 }  // namespace hmt::submap

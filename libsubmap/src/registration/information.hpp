@@ -14,4 +14,7 @@ Matrix6d inverse_in(Space space, const Matrix6d& matrix);
 Matrix6d compose_information(Space space, const Pose& T_b_c, const Matrix6d& information_a_b,
                              const Matrix6d& information_b_c);
 
+/// Whether a measurement tells more than the prediction in every direction of the space.
+bool observes_all(Space space, const Matrix6d& information, const Matrix6d& predicted);
+
 }  // namespace hmt::submap

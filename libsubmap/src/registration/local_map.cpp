@@ -3,15 +3,18 @@
 #include "local_map.hpp"
 
 #include <utility>
-#include <vector>
 
 namespace hmt::submap {
 void LocalMap::add(const Pose& T_track_robot, Surface surface) {
   surfaces_.push_back({T_track_robot, std::move(surface)});
   if (surfaces_.size() > kLocalMapKeyframes) surfaces_.pop_front();
+  target_ = RegistrationTarget(surfaces());
+}
+
+std::vector<RegistrationTarget::Placed> LocalMap::surfaces() const {
   std::vector<RegistrationTarget::Placed> placed;
   for (const Placed& p : surfaces_) placed.push_back({p.T_track_robot, &p.surface});
-  target_ = RegistrationTarget(placed);
+  return placed;
 }
 
 }  // namespace hmt::submap

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <vector>
 
 #include "hmt/submap/registration/register_surface.hpp"
 
@@ -20,6 +21,8 @@ class LocalMap {
   void forget() { surfaces_.clear(); }
   /// In the track's frame.
   const RegistrationTarget& target() const { return target_; }
+  /// What it is made of, in the same frame; holds until the next add().
+  std::vector<RegistrationTarget::Placed> surfaces() const;
 
  private:
   struct Placed {

@@ -19,6 +19,10 @@ namespace {
 // A registration is taken if so many of the usable points meet the local map; new sights open at
 // less than half of the view from one observation to the next.
 constexpr double kLeastInlierFraction = 0.5;
+// Where most is new, such as in a turn or a door, so many must still meet the map, and as many of
+// those for which the map leaves no other place.
+constexpr double kLeastNewInlierFraction = 0.25;
+constexpr double kKnownShare = 0.75;
 // Clouds see farther: more of each is new.
 constexpr double kLeastCloudInlierFraction = 0.3;
 // Clouds fill the plane, so no search from above helps; surfaces stand metres apart, so a wide
@@ -51,11 +55,12 @@ double least_inliers(Space space) {
 /// What all steps of a search share.
 class Locator {
  public:
-  Locator(Space space, const Surface& surface, const RegistrationTarget& map,
-          const Prediction& prediction)
+  Locator(Space space, const Surface& surface, const LocalMap& map, const Prediction& prediction)
       : space_(space), surface_(surface), map_(map), prediction_(prediction) {}
 
-  Registration near_prediction(double max_correspondence_m) const;
+  /// Where the walls leave the way along them to the prediction, the little that stands across them
+  /// is given a chance to tell that a wheel slipped, if nearly all that is seen meets the map then.
+  Registration near_prediction() const;
   /// In the plane.
   Registration search(const Registration& first) const;
   /// In space: registration from farther away.
@@ -68,13 +73,17 @@ class Locator {
   /// What contradicts the prediction must not look through the map: people around the robot may
   /// leave so little of the map in view that a wrong pose fits better than the right one.
   bool is_trusted(const Registration& found) const {
-    return mahalanobis2(found) > kDoubtful2 ? fits(found) : meets_enough(found);
+    if (mahalanobis2(found) > kDoubtful2) return fits(found);
+    return meets_enough(found) || meets_what_is_known(found);
   }
 
  private:
+  Registration from_prediction(double max_correspondence_m, bool scale_across) const;
   bool meets_enough(const Registration& found) const {
     return credit(found) >= least_inliers(space_);
   }
+  /// Whether most is in view for the first time and the rest meets the map.
+  bool meets_what_is_known(const Registration& found) const;
   double mahalanobis2(const Registration& found) const;
   /// Inlier fraction less what the contradiction to the odometry costs.
   double credit(const Registration& found) const;
@@ -82,7 +91,7 @@ class Locator {
   bool is_impossible(const Pose& T_map_robot) const;
   bool fits(const Registration& found) const;
   std::vector<CorrelativeMatch> matches(const CorrelativeWindow& window, double least_score) const {
-    return correlative_search(surface_, map_, prediction_.T_map_robot, window, kStarts,
+    return correlative_search(surface_, map_.target(), prediction_.T_map_robot, window, kStarts,
                               least_score);
   }
   /// The odometry is as wrong as the pose says, but only in that direction: along a corridor, of
@@ -96,7 +105,7 @@ class Locator {
 
   Space space_;
   const Surface& surface_;
-  const RegistrationTarget& map_;
+  const LocalMap& map_;
   const Prediction& prediction_;
 };
 
@@ -113,7 +122,15 @@ double Locator::credit(const Registration& found) const {
 
 bool Locator::is_impossible(const Pose& T_map_robot) const {
   return space_ == Space::se2 &&
-         seen_through_share(surface_, map_, T_map_robot) >= kImpossibleShare;
+         seen_through_share(surface_, map_.target(), T_map_robot) >= kImpossibleShare;
+}
+
+bool Locator::meets_what_is_known(const Registration& found) const {
+  if (space_ == Space::se3 || found.termination == Registration::Termination::too_few_points ||
+      found.inlier_fraction < kLeastNewInlierFraction || is_impossible(found.T_target_source))
+    return false;
+  const double standing = standing_in_view_share(surface_, map_.surfaces(), found.T_target_source);
+  return found.inlier_fraction >= kKnownShare * (found.inlier_fraction + standing);
 }
 
 bool Locator::fits(const Registration& found) const {
@@ -121,12 +138,22 @@ bool Locator::fits(const Registration& found) const {
          (found.inlier_fraction >= kClearInlierFraction || !is_impossible(found.T_target_source));
 }
 
-Registration Locator::near_prediction(double max_correspondence_m) const {
+Registration Locator::from_prediction(double max_correspondence_m, bool scale_across) const {
   RegistrationOptions options;
   options.space = space_;
   options.max_correspondence_m = max_correspondence_m;
+  options.scale_across = scale_across;
   options.prior = PosePrior{prediction_.T_map_robot, prediction_.information};
-  return register_surface(surface_, map_, prediction_.T_map_robot, options);
+  return register_surface(surface_, map_.target(), prediction_.T_map_robot, options);
+}
+
+Registration Locator::near_prediction() const {
+  const Registration found = from_prediction(RegistrationOptions{}.max_correspondence_m, false);
+  if (space_ == Space::se3 || observes_all(space_, found.information, prediction_.information))
+    return found;
+  const Registration across = from_prediction(RegistrationOptions{}.max_correspondence_m, true);
+  const bool clear = across.inlier_fraction >= kClearInlierFraction;
+  return clear && credit(across) > credit(found) ? across : found;
 }
 
 PosePrior Locator::prior_contradicted_by(const Pose& T_map_robot) const {
@@ -144,7 +171,7 @@ Registration Locator::best_of(const std::vector<CorrelativeMatch>& matches,
     RegistrationOptions options;
     options.space = space_;
     options.prior = prior_contradicted_by(start);
-    const Registration found = register_surface(surface_, map_, start, options);
+    const Registration found = register_surface(surface_, map_.target(), start, options);
     if (credit(found) > credit(best)) best = found;
   }
   return best;
@@ -175,7 +202,7 @@ Registration Locator::search(const Registration& first) const {
 }
 
 Registration Locator::search_wide(const Registration& first) const {
-  const Registration found = near_prediction(kWideCorrespondence_m);
+  const Registration found = from_prediction(kWideCorrespondence_m, false);
   return credit(found) > credit(first) ? found : first;
 }
 
@@ -183,14 +210,15 @@ Registration Locator::search_around(const Registration& first) const {
   if (first.inlier_fraction >= kClearInlierFraction) return first;
   const std::array guesses{prediction_.T_map_robot, prediction_.T_map_latest};
   Registration best = first;
-  double best_share = met_share(surface_, map_, first.T_target_source);
-  for (const SpaceMatch& match : search_space(surface_, map_, guesses)) {
+  double best_share = met_share(surface_, map_.target(), first.T_target_source);
+  for (const SpaceMatch& match : search_space(surface_, map_.target(), guesses)) {
     RegistrationOptions options;
     options.space = space_;
     options.max_correspondence_m = kNearCorrespondence_m;
     options.prior = prior_contradicted_by(match.T_map_robot);
-    const Registration found = register_surface(surface_, map_, match.T_map_robot, options);
-    const double share = met_share(surface_, map_, found.T_target_source);
+    const Registration found =
+        register_surface(surface_, map_.target(), match.T_map_robot, options);
+    const double share = met_share(surface_, map_.target(), found.T_target_source);
     if (share <= best_share) continue;
     best = found;
     best_share = share;
@@ -200,11 +228,11 @@ Registration Locator::search_around(const Registration& first) const {
 
 }  // namespace
 
-LocatedSurface locate(Space space, const Surface& surface, const RegistrationTarget& map,
+LocatedSurface locate(Space space, const Surface& surface, const LocalMap& map,
                       const Prediction& prediction, bool blind) {
   const Locator locator(space, surface, map, prediction);
   LocatedSurface located;
-  located.registration = locator.near_prediction(RegistrationOptions{}.max_correspondence_m);
+  located.registration = locator.near_prediction();
   // A guess may be so far off that a wrong pose fits well enough.
   if (blind || locator.is_doubtful(located.registration)) {
     located.searched = true;

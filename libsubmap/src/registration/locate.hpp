@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hmt/submap/registration/register_surface.hpp"
+#include "local_map.hpp"
 
 namespace hmt::submap {
 
@@ -29,7 +30,7 @@ struct LocatedSurface {
 /// leave open, there only for an unambiguous one; in space by a registration from farther away.
 /// `blind`: the prediction is a guess, so a search is made in any case, in space also around the
 /// guess and the latest pose, unless the cloud meets the map clearly.
-LocatedSurface locate(Space space, const Surface& surface, const RegistrationTarget& map,
+LocatedSurface locate(Space space, const Surface& surface, const LocalMap& map,
                       const Prediction& prediction, bool blind);
 
 }  // namespace hmt::submap

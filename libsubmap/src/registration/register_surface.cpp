@@ -44,7 +44,7 @@ Vector6d solve_step(const SurfaceMatcher& matcher, const Pose& T_target_source,
   Matrix6d H = kNothing * Matrix6d::Identity();
   Vector6d g = Vector6d::Zero();
   for (const Match& match : matcher.matches()) {
-    const double weight = robust_weight(match.residual_m, matcher.scale_m()) / match.variance();
+    const double weight = robust_weight(match.residual_m, match.scale_m) / match.variance();
     H.noalias() += weight * match.jacobian * match.jacobian.transpose();
     g.noalias() -= weight * match.residual_m * match.jacobian;
   }
@@ -75,7 +75,7 @@ Registration register_surface(const Surface& source, const RegistrationTarget& t
                               const RegistrationOptions& options) {
   Registration result;
   result.T_target_source = T_target_source_guess;
-  SurfaceMatcher matcher(source, target.impl(), options.max_correspondence_m);
+  SurfaceMatcher matcher(source, target.impl(), options.max_correspondence_m, options.scale_across);
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     matcher.match(result.T_target_source);
     if (matcher.matches().size() < 3) return result;

@@ -102,7 +102,7 @@ InlierSums sum_inliers(const SurfaceMatcher& matcher, Space space) {
   BiasedSum information;
   const std::vector<int> sharing = shared_elements(matcher.matches());
   for (const Match& match : matcher.matches()) {
-    if (std::abs(match.residual_m) > matcher.scale_m()) continue;
+    if (std::abs(match.residual_m) > match.scale_m) continue;
     const Eigen::Vector3d& p = matcher.source().points_robot[match.source];
     const double independent =
         match.source_variance + sharing[match.element] * match.target_variance;
@@ -121,7 +121,7 @@ InlierSums sum_inliers(const SurfaceMatcher& matcher, Space space) {
 double correlation_inflation(const SurfaceMatcher& matcher) {
   std::vector<double> whitened;
   for (const Match& match : matcher.matches())
-    if (std::abs(match.residual_m) <= matcher.scale_m())
+    if (std::abs(match.residual_m) <= match.scale_m)
       whitened.push_back(match.residual_m / std::sqrt(match.variance()));
   double power = 0;
   for (const double r : whitened) power += r * r;

@@ -66,7 +66,6 @@ SurfaceElement merge(std::span<const PlacedPoint> points) {
   double weight = 0;
   double normal_variance = 0;
   double spacing_m = points[0].spacing_m;
-  int surfaces = 0;
   for (size_t i = 0; i < points.size(); ++i) {
     const PlacedPoint& p = points[i];
     weight += p.weight;
@@ -74,12 +73,12 @@ SurfaceElement merge(std::span<const PlacedPoint> points) {
     element.normal += p.weight * p.normal;
     normal_variance += p.normal_variance;
     spacing_m = std::min(spacing_m, p.spacing_m);
-    if (i == 0 || p.surface != points[i - 1].surface) ++surfaces;
+    if (i == 0 || p.surface != points[i - 1].surface) ++element.surfaces;
   }
   element.point /= weight;
   element.normal.normalize();
   element.variance = 1 / weight;
-  element.normal_variance = normal_variance / static_cast<double>(points.size()) / surfaces;
+  element.normal_variance = normal_variance / static_cast<double>(points.size()) / element.surfaces;
   element.spacing_m = spacing_m;
   return element;
 }

@@ -16,6 +16,7 @@ struct SurfaceElement {
   double variance = 0;         ///< of the point along the normal, m^2
   double normal_variance = 0;  ///< of the direction, rad^2
   double spacing_m = 0;        ///< distance to the neighbors on the surface
+  int surfaces = 0;            ///< that it was seen in
 };
 
 struct RegistrationTarget::Impl {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+
 #include "hmt/submap/registration/register_surface.hpp"
 
 namespace hmt::submap {
@@ -12,5 +14,12 @@ namespace hmt::submap {
 /// unknown room contradicts nothing.
 double seen_through_share(const Surface& source, const RegistrationTarget& target,
                           const Pose& T_target_source);
+
+/// Share of the points of a planar source, placed at T_target_source, that stand where one of the
+/// placed surfaces saw something farther off: they are new there, moved, or the pose is wrong. What
+/// stands behind all that was seen, or out of view, does not count. In [0, 1].
+double standing_in_view_share(const Surface& source,
+                              std::span<const RegistrationTarget::Placed> target,
+                              const Pose& T_target_source);
 
 }  // namespace hmt::submap

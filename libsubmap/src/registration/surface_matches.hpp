@@ -19,6 +19,7 @@ struct Match {
   double source_variance = 0;
   double target_variance = 0;
   double normal_variance = 0;
+  double scale_m = 0;  ///< of the robust weight: residuals beyond it are outliers
 
   double variance() const { return source_variance + target_variance; }
 };
@@ -27,33 +28,46 @@ struct Match {
 double robust_weight(double residual_m, double scale_m);
 
 /// Finds matches at changing poses, with a search radius and a robust scale that shrink with the
-/// residuals from call to call.
+/// residuals from call to call; `scale_across`: as RegistrationOptions.
 class SurfaceMatcher {
  public:
-  SurfaceMatcher(const Surface& source, const RegistrationTarget::Impl& target, double radius_m);
+  SurfaceMatcher(const Surface& source, const RegistrationTarget::Impl& target, double radius_m,
+                 bool scale_across = false);
 
   void match(const Pose& T_target_source);
   const std::vector<Match>& matches() const { return matches_; }
-  double scale_m() const { return scale_m_; }
-  /// Whether the last call narrowed the scale by more than a percent.
+  /// Whether the last call narrowed a scale by more than a percent.
   bool shrunk() const { return shrunk_; }
   /// Number of source points that have a normal.
   size_t usable() const { return usable_.size(); }
   const Surface& source() const { return *source_; }
 
  private:
+  /// How far matches are looked for, and from which residual on they are outliers.
+  struct Reach {
+    double radius_m = 0;
+    double scale_m = 0;
+  };
+
+  void divide_source();
   void find_match(uint32_t i, const Pose& T_target_source, const Eigen::Matrix3d& R);
-  double median_residual_m(bool level);
+  bool is_across(const Match& match) const { return across_[match.source] != 0; }
+  bool is_level(const Match& match) const;
+  template <typename Belongs>
+  double median_residual_m(const Belongs& belongs, size_t least);
+  template <typename Belongs>
+  void shrink(Reach& reach, double median_m, const Belongs& belongs);
   void shrink();
 
   const Surface* source_;
   const RegistrationTarget::Impl* target_;
   std::vector<uint32_t> usable_;
   std::vector<uint32_t> last_;  // element that each source point met last
+  std::vector<char> across_;    // whether a source point is on a surface across the main direction
   std::vector<Match> matches_;
   std::vector<double> sorted_;
-  double radius_m_;
-  double scale_m_;
+  Reach along_;
+  Reach across_reach_;
   bool shrunk_ = true;
 };
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracker.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -34,16 +33,6 @@ Matrix6d unknown_step(Space space) {
 
 // Observations in a row after which the odometry is not trusted less and less any more.
 constexpr int kMostRefused = 10;
-
-// Whether the registration told more than the prediction in every direction.
-bool observes_all(Space space, const Matrix6d& information, const Matrix6d& predicted) {
-  const Eigen::ArrayXi used =
-      space == Space::se2 ? Eigen::ArrayXi{{0, 1, 5}} : Eigen::ArrayXi{{0, 1, 2, 3, 4, 5}};
-  const Eigen::MatrixXd measured = information(used, used);
-  const Eigen::MatrixXd prior = predicted(used, used);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(measured, prior);
-  return eigen.eigenvalues()[0] > 1;
-}
 
 double rotation_angle_rad(const Pose& T) {
   return 2 * std::atan2(T.rotation.vec().norm(), std::abs(T.rotation.w()));
@@ -163,8 +152,7 @@ void Tracker::learn_odometry(const Motion& motion, const Prediction& prediction,
 }
 
 Tracker::Estimate Tracker::estimate(const Surface& surface, const Prediction& prediction) {
-  const LocatedSurface located =
-      locate(space_, surface, map_.target(), prediction, !odometry_moves_);
+  const LocatedSurface located = locate(space_, surface, map_, prediction, !odometry_moves_);
   const Registration& found = located.registration;
   if (!located.fits) {
     ++counts_.odometry_only;

@@ -87,6 +87,20 @@ TEST(RegisterSurface, LetsThePriorDecideAlongACorridor) {
 }
 
 // Three planes that meet at a right angle, seen as clouds: all six unknowns.
+// Walls that fit already make outliers of a step in one of them, unless it has a scale of its own.
+TEST(RegisterSurface, FollowsTheLittleThatStandsAcrossACorridor) {
+  const std::vector<test::Wall> walls{
+      {{-200, -1}, {200, -1}}, {{-200, 1.4}, {6, 1.4}}, {{6, 1.4}, {6, 1}}, {{6, 1}, {200, 1}}};
+  const test::Laser laser{.noise_m = 0.005};
+  const Surface a = seen_from(walls, Pose{}, laser, 1), b = seen_from(walls, Pose{}, laser, 2);
+  const RegistrationTarget::Placed placed[] = {{Pose{}, &a}, {Pose{}, &b}};
+  const Surface source = seen_from(walls, Pose::planar(0.25, 0, 0), laser, 3);
+  RegistrationOptions options;
+  options.scale_across = true;
+  const Registration found = register_surface(source, RegistrationTarget(placed), Pose{}, options);
+  EXPECT_NEAR(found.T_target_source.translation.x(), 0.25, 0.02);
+}
+
 TEST(RegisterSurface, FindsTheOffsetBetweenTwoCloudsOfACorner) {
   const auto cloud = [](const Pose& T_world_robot, float shift) {
     Observation observation;

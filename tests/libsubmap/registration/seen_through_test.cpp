@@ -60,5 +60,33 @@ TEST(SeenThrough, NothingOfAWallThatTheBeamsGraze) {
   EXPECT_EQ(seen_through_share(beyond, target_of(along), Pose{}), 0);
 }
 
+double standing_in_view(const Surface& source, const Surface& seen) {
+  const RegistrationTarget::Placed placed[] = {{Pose{}, &seen}};
+  return standing_in_view_share(source, placed, Pose{});
+}
+
+// Both walls reach from y = -2 to 2: of the nearer one 25 points of 41 are before the other.
+TEST(StandingInView, AllOfAWallBeforeTheOneThatWasSeen) {
+  EXPECT_DOUBLE_EQ(standing_in_view(wall(3), wall(5)), 25.0 / 41);
+}
+
+TEST(StandingInView, NothingOfWhatIsSeenAgainOrHidden) {
+  EXPECT_EQ(standing_in_view(wall(3), wall(3)), 0);
+  EXPECT_EQ(standing_in_view(wall(5), wall(3)), 0);
+}
+
+TEST(StandingInView, NothingOutOfView) {
+  const Surface seen = wall(5), source = wall(3);
+  const RegistrationTarget::Placed placed[] = {{Pose{}, &seen}};
+  EXPECT_EQ(standing_in_view_share(source, placed, Pose::planar(0, 0, 3.1)), 0);
+  EXPECT_EQ(standing_in_view_share(Surface{}, placed, Pose{}), 0);
+}
+
+TEST(StandingInView, OneOfTwoViewsIsEnough) {
+  const Surface near = wall(2), far = wall(5), source = wall(3);
+  const RegistrationTarget::Placed placed[] = {{Pose{}, &near}, {Pose{}, &far}};
+  EXPECT_DOUBLE_EQ(standing_in_view_share(source, placed, Pose{}), 25.0 / 41);
+}
+
 }  // namespace
 }  // namespace hmt::submap

@@ -146,6 +146,43 @@ TEST(TrackLog, FindsARobotWhoseOdometryCountsBackwardsAsForwards) {
         << i;
 }
 
+/// A corridor along x, 2.5 m wide, with doors four decimetres deep on its left.
+std::vector<test::Wall> corridor_with_doors() {
+  std::vector<test::Wall> walls{{{-5, -1.25}, {60, -1.25}}};
+  double from_m = -5;
+  for (const double door_m : {1.0, 9.0, 15.5, 24.0, 31.0, 40.5, 48.0}) {
+    walls.push_back({{from_m, 1.25}, {door_m, 1.25}});
+    walls.push_back({{door_m, 1.25}, {door_m, 1.65}});
+    walls.push_back({{door_m, 1.65}, {door_m + 1, 1.65}});
+    walls.push_back({{door_m + 1, 1.65}, {door_m + 1, 1.25}});
+    from_m = door_m + 1;
+  }
+  walls.push_back({{from_m, 1.25}, {60, 1.25}});
+  return walls;
+}
+
+// Two jambs of a door are all that contradicts the wheels.
+TEST(TrackLog, FindsWhereAWheelSlippedAlongACorridor) {
+  constexpr double kStep_m = 0.35, kSlip_m = 0.2;
+  const std::vector<test::Wall> walls = corridor_with_doors();
+  const test::Laser laser{.noise_m = 0.01};
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise_m(0, 0.01);
+  std::vector<Observation> observations;
+  std::vector<Pose> truth;
+  double wheels_m = 0;
+  for (int i = 0; i < 80; ++i) {
+    truth.push_back(Pose::planar(kStep_m * i, 0, 0));
+    Observation seen = test::scan(walls, truth.back(), laser, random);
+    seen.index = i;
+    seen.stamp_s = i;
+    seen.T_odom_robot = Pose::planar(wheels_m, 0, 0);
+    wheels_m += kStep_m + noise_m(random) + (i == 40 || i == 60 ? kSlip_m : 0);
+    observations.push_back(std::move(seen));
+  }
+  EXPECT_LT(largest_error_m(track(observations), truth, 1), kSlip_m / 2);
+}
+
 TEST(TrackLog, FollowsARobotWithoutOdometry) {
   SimulatedLog log = rooms();
   // Each scan is searched, which takes its time.

@@ -47,6 +47,10 @@ struct RegistrationOptions {
   /// it for worse guesses.
   double max_correspondence_m = 0.5;
   int max_iterations = 40;
+  /// In the plane: surfaces across the main direction of the source have a robust scale of their
+  /// own. The jambs of a few doors are all that tells the way along a corridor, and walls that fit
+  /// already do not make outliers of them; but a person who walks along may be all as well.
+  bool scale_across = false;
   /// Pulls the result where the surfaces leave it free, such as along a corridor.
   std::optional<PosePrior> prior;
 };
