@@ -14,6 +14,13 @@ void add_log_options(CLI::App& command, submap::LogOptions& options) {
       ->type_name("TOPIC")
       ->take_all();
   command
+      .add_option("--landmark-topic", options.landmark_topics,
+                  "Of bags: topic of landmarks, may be given once for each sensor; all topics of "
+                  "markers without it, vision_msgs/Detection3DArray only with it, since what it "
+                  "tells of may move; none takes none")
+      ->type_name("TOPIC")
+      ->take_all();
+  command
       .add_option("--odom-topic", options.odometry_topic,
                   "Of bags: topic of the odometry, if there are several; /tf takes the transform "
                   "below the frame odom")

@@ -38,7 +38,7 @@ void reject_again(std::vector<LoopCandidate>& candidates, std::span<const LoopCa
 std::vector<LoopCandidate> find_loops(const LoopSearch& search,
                                       const ObservationStore& observations, const Run& run) {
   const graph::PoseGraph graph =
-      graph_of_all(search.track, search.T_world_keyframe, search.constraints, {});
+      graph_of_all(search.track, search.T_world_keyframe, search.constraints, search.sightings);
   const graph::PoseCovariance covariance(graph);
   LoopProblem problem;
   problem.space = search.track.space;

@@ -17,6 +17,7 @@ struct LoopSearch {
   const Track& track;
   std::span<const Pose> T_world_keyframe;
   std::span<const Constraint> constraints;
+  std::span<const Sighting> sightings;
   std::span<const int> submap_of_keyframe;
   std::span<const LoopCandidate> decided;  ///< earlier ones; what the user rejected stays so
   int first_query = 0;                     ///< as in LoopProblem

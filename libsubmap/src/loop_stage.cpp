@@ -128,11 +128,11 @@ void close_loops(MapFile& file, const std::string& stage, bool last_round, const
   const HybridMap map = file.load_map();
   std::vector<LoopCandidate> candidates;
   // A loop that is found in the last round could not be made part of the submaps any more.
-  // Landmarks are their own loop closures.
-  if (!last_round && map.sightings.empty()) {
+  // Landmarks are their own loop closures; scans may know places that show none.
+  if (!last_round && has_scans(map.track, file)) {
     const std::vector<Pose> T_world_keyframe = keyframe_poses(map);
-    const LoopSearch search = {map.track, T_world_keyframe, map.constraints, map.submap_of_keyframe,
-                               map.loops};
+    const LoopSearch search = {map.track,     T_world_keyframe,       map.constraints,
+                               map.sightings, map.submap_of_keyframe, map.loops};
     candidates = find_loops(search, file, run);
   }
   if (has_closure(candidates)) return take_loops(file, map, std::move(candidates), stage, run);

@@ -14,6 +14,7 @@ OctreeOptions octree_options(const Options& options, Space space) {
 std::string to_json(const Options& options) {
   nlohmann::ordered_json json;
   json["log"] = {{"scan_topics", options.log.scan_topics},
+                 {"landmark_topics", options.log.landmark_topics},
                  {"odometry_topic", options.log.odometry_topic},
                  {"odometry_file", options.log.odometry_file}};
   if (options.log.robot) json["log"]["robot"] = *options.log.robot;
@@ -40,6 +41,7 @@ Options options_from_json(const std::string& text) {
       json.at(stage).at(name).get_to(value);
     };
     get("log", "scan_topics", options.log.scan_topics);
+    get("log", "landmark_topics", options.log.landmark_topics);
     get("log", "odometry_topic", options.log.odometry_topic);
     get("log", "odometry_file", options.log.odometry_file);
     if (json.at("log").contains("robot")) options.log.robot = json["log"]["robot"].get<int>();

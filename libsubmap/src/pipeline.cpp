@@ -15,6 +15,7 @@
 #include "hmt/submap/local/optimize_submap.hpp"
 #include "hmt/submap/log/log_reader.hpp"
 #include "stages.hpp"
+#include "whole_map.hpp"
 
 namespace hmt::submap {
 namespace {
@@ -139,13 +140,16 @@ std::vector<StageTime> continue_run(MapFile& file, const Options& given, const R
   const Options options = with_caches(file, given);
   Stages stages(file, options.max_memory_bytes, run);
   Track track = file.load_track();
+  if (!file.load_sightings().empty() && has_scans(track, file))
+    stages("landmarks",
+           [&](const std::string& stage) { place_by_landmarks(file, track, stage, run); });
   for (int section = 1; file.load_estimate().size() < track.keyframes.size(); ++section)
     stages("section" + std::to_string(section), [&](const std::string& stage) {
       track = add_section(file, track, stage, options, run);
     });
   for (int round = 1; !file.finished(kSettled); ++round)
     improve(file, track, round, options, run, stages);
-  if (!file.load_sightings().empty())
+  if (!file.load_sightings().empty() && !has_scans(track, file))
     stages("observations",
            [&](const std::string& stage) { refine_observations(file, stage, run); });
   stages("octomap", [&](const std::string& stage) {

@@ -91,7 +91,7 @@ void relate(Known& known, const MapFile& file, const Options& options, const Run
 bool close_loops(Known& known, const MapFile& file, double query_spacing_m, const Run& run) {
   const std::vector<int> no_submaps(known.track.keyframes.size(), 0);
   const LoopSearch search = {
-      known.track, known.T_world_keyframe, known.constraints, no_submaps, known.loops,
+      known.track, known.T_world_keyframe, known.constraints, {}, no_submaps, known.loops,
       known.first, query_spacing_m};
   std::vector<LoopCandidate> candidates = find_loops(search, file, run);
   const bool found = has_closure(candidates);

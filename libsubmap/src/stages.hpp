@@ -20,6 +20,11 @@ inline const std::string kSettled = "settled";
 void read_and_track(MapFile& file, const std::string& stage, const std::filesystem::path& log,
                     const Options& options, const Run& run);
 
+/// Of a log of scans with landmarks: the keyframes where odometry and landmarks put them, without
+/// the sightings that the others contradict, or the scans.
+void place_by_landmarks(MapFile& file, const Track& track, const std::string& stage,
+                        const Run& run);
+
 /// Adds the next section of a track to the keyframes that are estimated: overlap, registrations and
 /// loop closures among its keyframes and with those before, in rounds. Loops come first: what is
 /// registered before they are closed may be drawn to the wrong side of a wall. Then its

@@ -8,7 +8,8 @@
 #include "hmt/submap/link/bundle_in_order.hpp"
 #include "hmt/submap/link/robust_solution.hpp"
 #include "hmt/submap/overlap/keyframe_landmarks.hpp"
-#include "hmt/submap/registration/landmark_track.hpp"
+#include "hmt/submap/registration/track.hpp"
+#include "link/landmark_revisits.hpp"
 #include "stages.hpp"
 #include "whole_map.hpp"
 
@@ -35,13 +36,10 @@ void read_and_track(MapFile& file, const std::string& stage, const std::filesyst
   const auto reader = open_log(log, options.log);
   StageWriter writer = file.begin(stage);
   const auto keep = [&writer](const Observation& o) { writer.add(o); };
-  const LandmarkTrack result =
-      reader->has_landmarks_only()
-          ? track_landmarks(*reader, options.track, keep, run)
-          : LandmarkTrack{track_log(*reader, options.track, keep, run), {}, {}};
+  const TrackedLog result = track_log(*reader, options.track, keep, run);
   const Track& track = result.track;
-  // Logs of landmarks are taken as a whole; of others sections add all but the first keyframe.
-  const bool as_a_whole = reader->has_landmarks_only();
+  // Logs with landmarks are taken as a whole; of others sections add all but the first keyframe.
+  const bool as_a_whole = reader->has_landmarks_only() || !result.sightings.empty();
   writer.put_track(track);
   writer.put_constraints(as_a_whole ? track.odometry : std::vector<Constraint>{});
   writer.put_sightings(result.sightings);
@@ -51,6 +49,28 @@ void read_and_track(MapFile& file, const std::string& stage, const std::filesyst
       result.sightings.empty() ? track_poses(track) : bundle_in_order(track, result.sightings, run);
   if (!as_a_whole) estimate.resize(1);
   writer.put_estimate(estimate);
+  writer.commit();
+}
+
+void place_by_landmarks(MapFile& file, const Track& track, const std::string& stage,
+                        const Run& run) {
+  const std::vector<Sighting> sightings = file.load_sightings();
+  const std::vector<Constraint> constraints = file.load_constraints();
+  RobustSolution solution =
+      solve_robustly(track.space, file.load_estimate(), constraints, sightings, run);
+  const LandmarkRevisits revisits =
+      check_revisits(track, solution.T_world_keyframe, solution.kept_sightings, file);
+  if (revisits.contradicted > 0) {
+    run.log_warning(std::to_string(revisits.contradicted) +
+                    " visits to landmarks are left out: the scans show another place");
+    solution = solve_robustly(track.space, bundle_in_order(track, revisits.kept, run), constraints,
+                              revisits.kept, run);
+  }
+  run.log_info(std::to_string(solution.kept_sightings.size()) + " of " +
+               std::to_string(sightings.size()) + " sightings agree");
+  StageWriter writer = file.begin(stage);
+  writer.put_sightings(solution.kept_sightings);
+  writer.put_estimate(solution.T_world_keyframe);
   writer.commit();
 }
 
@@ -68,7 +88,7 @@ void find_overlap(MapFile& file, const Track& track, const std::string& stage,
   const std::optional<KeyframeLandmarks> landmarks =
       sightings.empty() ? std::nullopt
                         : std::optional<KeyframeLandmarks>(std::in_place, track, sightings,
-                                                           file.load_landmark_names());
+                                                           file.load_landmark_names(), file);
   const ObservationStore& sensed =
       landmarks ? static_cast<const ObservationStore&>(*landmarks) : file;
   const graph::WeightedGraph overlap =

@@ -15,6 +15,12 @@ std::vector<int> all_keyframes(const Track& track) {
   return all;
 }
 
+bool has_scans(const Track& track, const ObservationStore& observations) {
+  // Scans make the observations where there are any.
+  return !track.observations.empty() &&
+         !observations.load(track.observations.front().observation)->readings.empty();
+}
+
 graph::PoseGraph graph_of_all(const Track& track, std::span<const Pose> T_world_keyframe,
                               std::span<const Constraint> constraints,
                               std::span<const Sighting> sightings) {

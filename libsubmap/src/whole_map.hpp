@@ -13,6 +13,9 @@ namespace hmt::submap {
 
 std::vector<int> all_keyframes(const Track& track);
 
+/// Whether range sensors saw what the map is made of; otherwise all of it are landmarks.
+bool has_scans(const Track& track, const ObservationStore& observations);
+
 /// The graph of all keyframes and of the landmarks that they sighted, the first keyframe fixed.
 graph::PoseGraph graph_of_all(const Track& track, std::span<const Pose> T_world_keyframe,
                               std::span<const Constraint> constraints,

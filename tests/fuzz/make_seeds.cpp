@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "hmt/submap/export/carmen_file.hpp"
+#include "recordings/marker_messages.hpp"
 #include "recordings/simulated_messages.hpp"
 
 namespace hmt::test {
@@ -29,6 +30,23 @@ std::vector<SampleMessage> with_cloud(std::vector<SampleMessage> messages, Wire 
   return messages;
 }
 
+/// Adds a message of each kind that has markers.
+std::vector<SampleMessage> with_markers(std::vector<SampleMessage> messages, Wire wire) {
+  const int64_t stamp_ns = messages.back().received_ns;
+  const std::vector<SampleMarker> markers = {{3, {0.5, 0, 2}, 0.01 * Eigen::Matrix3d::Identity()},
+                                             {4, {-1, 0, 3}}};
+  const WireWriter out(wire);
+  messages.push_back({"/tags", "apriltag_ros/AprilTagDetectionArray", stamp_ns,
+                      april_tags(out, stamp_ns, "laser", markers)});
+  messages.push_back({"/aruco", "ros2_aruco_interfaces/ArucoMarkers", stamp_ns,
+                      aruco_markers(out, stamp_ns, "laser", markers)});
+  messages.push_back({"/more_aruco", "aruco_opencv_msgs/ArucoDetection", stamp_ns,
+                      aruco_detection(out, stamp_ns, "laser", markers)});
+  messages.push_back({"/objects", "vision_msgs/Detection3DArray", stamp_ns,
+                      detections(out, stamp_ns, "laser", markers)});
+  return messages;
+}
+
 void write_logs(const fs::path& folder) {
   const submap::SimulationOptions rooms{"rooms", 1, 1};
   for (const bool clouds : {false, true}) {
@@ -40,6 +58,9 @@ void write_logs(const fs::path& folder) {
       std::erase_if(ros2, [](const auto& m) { return m.topic == "/scan"; });
       ros1 = with_cloud(ros1, Wire::ros1);
       ros2 = with_cloud(ros2, Wire::cdr);
+    } else {
+      ros1 = with_markers(ros1, Wire::ros1);
+      ros2 = with_markers(ros2, Wire::cdr);
     }
     for (const char* codec : {"none", "lz4", "bz2"})
       write_file(folder / (name + codec + ".bag"), ros1_bag(ros1, {codec, 4}));
@@ -96,7 +117,8 @@ void write_clouds(const fs::path& folder) {
 void write_messages(const fs::path& folder) {
   for (const Wire wire : {Wire::ros1, Wire::cdr}) {
     const std::string lead(1, wire == Wire::ros1 ? '\0' : '\1');
-    auto messages = with_cloud(simulated_messages({"rooms", 1, 1}, wire, 1), wire);
+    const auto messages =
+        with_markers(with_cloud(simulated_messages({"rooms", 1, 1}, wire, 1), wire), wire);
     for (size_t k = 0; k < messages.size(); ++k)
       write_file(folder / ((wire == Wire::ros1 ? "ros1_" : "cdr_") + std::to_string(k)),
                  lead + messages[k].bytes);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "log/ros/messages.hpp"
+#include "log/ros/markers_message.hpp"
 
 namespace {
 
@@ -26,6 +26,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view message(reinterpret_cast<const char*>(data) + 1, size - 1);
   for (const MessageKind kind : {MessageKind::laser_scan, MessageKind::multi_echo_scan})
     attempt([&] { read_laser_scan({message, wire}, kind); });
+  for (const MessageKind kind : {MessageKind::april_tags, MessageKind::aruco_markers,
+                                 MessageKind::aruco_detection, MessageKind::detections})
+    attempt([&] {
+      for (const Marker& marker : read_markers({message, wire}, kind).markers)
+        if (!marker.position.allFinite() || marker.name < 0 ||
+            (marker.covariance.diagonal().minCoeff() <= 0 && !marker.covariance.isZero(0)))
+          std::abort();
+    });
   attempt([&] { read_odometry({message, wire}); });
   attempt([&] { read_transforms({message, wire}); });
   attempt([&] { read_imu({message, wire}); });

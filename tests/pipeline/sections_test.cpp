@@ -53,7 +53,8 @@ class Sections : public testing::Test {
 };
 
 TEST_F(Sections, KeepAMapOfWhatIsThereAndATrajectoryOfAll) {
-  const Track whole = track_log(*open_log(folder_->path() / "log"), {}, [](const auto&) {}, {});
+  const Track whole =
+      track_log(*open_log(folder_->path() / "log"), {}, [](const auto&) {}, {}).track;
   const HybridMap thin = map("thin.hmt", options(), {});
   EXPECT_LT(thin.track.keyframes.size(), 0.8 * static_cast<double>(whole.keyframes.size()));
   const TrajectoryError error = evaluate_trajectory(stamped_trajectory(thin), truth_);

@@ -27,6 +27,7 @@ class PartsReader : public LogReader {
   int64_t bytes_read() const override { return bytes_before_ + part_->bytes_read(); }
   int64_t bytes_total() const override { return bytes_total_; }
   Space space() const override { return part_->space(); }
+  bool has_landmarks_only() const override { return part_->has_landmarks_only(); }
 
  private:
   bool open_next();

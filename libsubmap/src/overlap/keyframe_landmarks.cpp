@@ -32,21 +32,18 @@ struct Sum {
 }  // namespace
 
 KeyframeLandmarks::KeyframeLandmarks(const Track& track, std::span<const Sighting> sightings,
-                                     std::span<const int64_t> names) {
+                                     std::span<const int64_t> names,
+                                     const ObservationStore& observations)
+    : observations_(observations) {
   std::vector<std::map<int, Sum>> sums(track.keyframes.size());
   for (const Sighting& s : sightings) sums.at(static_cast<size_t>(s.keyframe))[s.landmark].add(s);
   for (const Keyframe& keyframe : track.keyframes) {
-    auto observation = std::make_shared<Observation>();
-    observation->index = keyframe.observation;
-    observation->stamp_s = keyframe.stamp_s;
-    observation->T_odom_robot = keyframe.T_track_robot;
-    LandmarkReading& reading = observation->landmark_readings.emplace_back();
+    LandmarkReading& reading = by_observation_[keyframe.observation];
     for (const auto& [number, sum] : sums[static_cast<size_t>(keyframe.id)]) {
       reading.landmarks.push_back(sum.mean(track.space));
       if (names[static_cast<size_t>(number)] != kUnknownLandmark)
         reading.landmarks.back().id = number;
     }
-    by_observation_[keyframe.observation] = std::move(observation);
   }
 }
 
@@ -54,7 +51,11 @@ std::shared_ptr<const Observation> KeyframeLandmarks::load(int64_t index) const 
   const auto found = by_observation_.find(index);
   if (found == by_observation_.end())
     throw InputError("observation " + std::to_string(index) + " is of no keyframe");
-  return found->second;
+  auto observation = std::make_shared<Observation>(*observations_.load(index));
+  observation->landmark_readings.clear();
+  if (observation->readings.empty() || !found->second.landmarks.empty())
+    observation->landmark_readings.push_back(found->second);
+  return observation;
 }
 
 }  // namespace hmt::submap

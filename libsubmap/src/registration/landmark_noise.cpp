@@ -27,27 +27,11 @@ constexpr double kTurnPerMetre_rad = 0.33;
 /// At rest a robot may still shift by so much from one observation to the next.
 constexpr double kRest_m = 1e-3;
 constexpr double kRest_rad = 5e-4;
-/// Keyframes apart from which two sightings of a landmark are independent. From nearer by, what is
-/// wrong with one (its lighting, its direction in the lens) is wrong with the other.
+/// Keyframes apart from which two sightings of a landmark are of different views.
 constexpr double kNewView = 4;
 
 double turn_rad(const Pose& T) {
   return 2 * std::atan2(T.rotation.vec().norm(), std::abs(T.rotation.w()));
-}
-
-Eigen::Matrix3d covariance_of(Space space, const Eigen::Vector3d& position_sensor) {
-  const double range_m = position_sensor.norm();
-  const double along = kRange_m * kRange_m + std::pow(kRangeShare * range_m, 2);
-  const double across = std::pow(kBearing_rad * range_m, 2);
-  const Eigen::Vector3d sight =
-      range_m > 0 ? Eigen::Vector3d(position_sensor / range_m) : Eigen::Vector3d::UnitX();
-  Eigen::Matrix3d covariance =
-      across * Eigen::Matrix3d::Identity() + (along - across) * sight * sight.transpose();
-  if (space == Space::se2) {
-    covariance.row(2).setZero();
-    covariance.col(2).setZero();
-  }
-  return covariance;
 }
 
 /// Of an odometry step (tangent of Pose, frame of its end).
@@ -64,47 +48,28 @@ Matrix6d covariance_of_step(Space space, const Pose& step) {
   return variances.asDiagonal();
 }
 
-/// For every sighting of a log, in its order, which view it belongs to, and how many are in a view.
-struct Views {
-  Views(const std::vector<Observation>& observations, const TrackOptions& options) {
-    struct Latest {
-      Pose T_odom_robot;
-      size_t view;
-    };
-    std::map<int64_t, Latest> latest;  // by name
-    for (const Observation& observation : observations)
-      for (const LandmarkReading& reading : observation.landmark_readings)
-        for (const Landmark& landmark : reading.landmarks) {
-          const auto found = latest.find(landmark.id);
-          if (landmark.id == kUnknownLandmark || found == latest.end() ||
-              has_moved(found->second.T_odom_robot, observation.T_odom_robot, options)) {
-            latest[landmark.id] = {observation.T_odom_robot, size.size()};
-            size.push_back(0);
-          }
-          view_of.push_back(latest[landmark.id].view);
-          ++size[view_of.back()];
-        }
-  }
+bool has_moved(const Pose& T_odom_before, const Pose& T_odom_now, const TrackOptions& options) {
+  const Pose T = graph::relative_pose(T_odom_before, T_odom_now);
+  return T.translation.norm() >= kNewView * options.keyframe_distance_m ||
+         turn_rad(T) >= kNewView * options.keyframe_angle_rad;
+}
 
-  static bool has_moved(const Pose& T_odom_before, const Pose& T_odom_now,
-                        const TrackOptions& options) {
-    const Pose T = graph::relative_pose(T_odom_before, T_odom_now);
-    return T.translation.norm() >= kNewView * options.keyframe_distance_m ||
-           turn_rad(T) >= kNewView * options.keyframe_angle_rad;
-  }
-
-  std::vector<size_t> view_of;  ///< by sighting
-  std::vector<int> size;        ///< by view
-};
-
-void fill_in_landmarks(std::vector<Observation>& observations, Space space, const Views& views) {
+void fill_in_landmarks(std::vector<Observation>& observations, Space space,
+                       const TrackOptions& options) {
+  LandmarkViews views(options);
+  std::vector<size_t> view_of;  // by sighting
+  for (const Observation& observation : observations)
+    for (const LandmarkReading& reading : observation.landmark_readings)
+      for (const Landmark& landmark : reading.landmarks)
+        view_of.push_back(views.add(landmark.id, observation.T_odom_robot));
   size_t sighting = 0;
   for (Observation& observation : observations)
     for (LandmarkReading& reading : observation.landmark_readings)
       for (Landmark& landmark : reading.landmarks) {
-        const int same_view = views.size[views.view_of[sighting++]];
+        const int same_view = views.size(view_of[sighting++]);
         if (landmark.covariance_sensor.isZero(0))
-          landmark.covariance_sensor = same_view * covariance_of(space, landmark.position_sensor);
+          landmark.covariance_sensor =
+              same_view * ordinary_covariance(space, landmark.position_sensor);
       }
 }
 
@@ -165,9 +130,36 @@ void fill_in_motion(std::vector<Observation>& observations, Space space,
 
 }  // namespace
 
+Eigen::Matrix3d ordinary_covariance(Space space, const Eigen::Vector3d& position_sensor) {
+  const double range_m = position_sensor.norm();
+  const double along = kRange_m * kRange_m + std::pow(kRangeShare * range_m, 2);
+  const double across = std::pow(kBearing_rad * range_m, 2);
+  const Eigen::Vector3d sight =
+      range_m > 0 ? Eigen::Vector3d(position_sensor / range_m) : Eigen::Vector3d::UnitX();
+  Eigen::Matrix3d covariance =
+      across * Eigen::Matrix3d::Identity() + (along - across) * sight * sight.transpose();
+  if (space == Space::se2) {
+    covariance.row(2).setZero();
+    covariance.col(2).setZero();
+  }
+  return covariance;
+}
+
+size_t LandmarkViews::add(int64_t name, const Pose& T_odom_robot) {
+  const auto found = latest_.find(name);
+  if (name == kUnknownLandmark || found == latest_.end() ||
+      has_moved(found->second.T_odom_robot, T_odom_robot, options_)) {
+    latest_[name] = {T_odom_robot, sizes_.size()};
+    sizes_.push_back(0);
+  }
+  const size_t view = latest_[name].view;
+  ++sizes_[view];
+  return view;
+}
+
 std::vector<Observation> with_noise(std::vector<Observation> observations, Space space,
                                     const TrackOptions& options) {
-  fill_in_landmarks(observations, space, Views(observations, options));
+  fill_in_landmarks(observations, space, options);
   // The first observation has no motion before it.
   const bool all_told = std::all_of(observations.begin() + 1, observations.end(),
                                     [](const Observation& o) { return o.motion_covariance; });

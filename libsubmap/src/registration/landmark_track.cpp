@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The hmtmap authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hmt/submap/registration/landmark_track.hpp"
+#include "landmark_track.hpp"
 
 #include <cmath>
 #include <map>
@@ -11,6 +11,7 @@
 #include "hmt/graph/chi_squared.hpp"
 #include "information.hpp"
 #include "landmark_noise.hpp"
+#include "landmark_sightings.hpp"
 #include "validate_track_options.hpp"
 
 namespace hmt::submap {
@@ -62,7 +63,10 @@ class LandmarkTracker {
   }
 
   int64_t left_out() const { return left_out_; }
-  LandmarkTrack take() { return std::move(result_); }
+  TrackedLog take() {
+    result_.names = numbers_.names();
+    return std::move(result_);
+  }
 
  private:
   void move(const Observation& observation) {
@@ -98,10 +102,8 @@ class LandmarkTracker {
     int place = 0;
     for (const LandmarkReading& reading : observation.landmark_readings) {
       std::vector<MeasuredLandmark> measured;
-      const Eigen::Matrix3d R = reading.T_robot_sensor.rotation_matrix();
       for (const Landmark& landmark : reading.landmarks)
-        measured.push_back({reading.T_robot_sensor * landmark.position_sensor,
-                            R * landmark.covariance_sensor * R.transpose()});
+        measured.push_back(in_robot(reading, landmark));
       const std::vector<int> by_place = associate_landmarks(filter_, measured);
       for (size_t k = 0; k < measured.size(); ++k, ++place)
         if (const int number = learn(reading.landmarks[k].id, by_place[k], measured[k]);
@@ -112,7 +114,7 @@ class LandmarkTracker {
 
   /// Number of the landmark in the map, or kLeftOut.
   int learn(int64_t name, int by_place, const MeasuredLandmark& measured) {
-    if (name != kUnknownLandmark) return learn_named(number_of(name), measured);
+    if (name != kUnknownLandmark) return learn_named(numbers_.of(name), measured);
     if (by_place == kLeftOut) {
       ++left_out_;
       return kLeftOut;
@@ -121,7 +123,7 @@ class LandmarkTracker {
       filter_.update(by_place, measured);
       return by_place;
     }
-    const int number = add_landmark(kUnknownLandmark);
+    const int number = numbers_.add(kUnknownLandmark);
     filter_.insert(number, measured);
     return number;
   }
@@ -142,40 +144,22 @@ class LandmarkTracker {
     return number;
   }
 
-  int number_of(int64_t name) {
-    const auto found = number_of_name_.find(name);
-    if (found != number_of_name_.end()) return found->second;
-    return number_of_name_[name] = add_landmark(name);
-  }
-
-  int add_landmark(int64_t name) {
-    result_.names.push_back(name);
-    return static_cast<int>(result_.names.size()) - 1;
-  }
-
   void keep(int64_t observation, int place, int number, const MeasuredLandmark& measured) {
     seen_.insert(number);
-    // The point moves with the pose of the robot against the keyframe, and with its measurement.
-    const Eigen::Matrix3d R = T_keyframe_robot_.rotation_matrix();
-    const Eigen::Vector3d& p = measured.p_robot;
-    Eigen::Matrix<double, 3, 6> J;
-    J << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
-    J.rightCols<3>() << 0, p.z(), -p.y(), -p.z(), 0, p.x(), p.y(), -p.x(), 0;
-    const Eigen::Matrix3d covariance =
-        R * (measured.covariance + J * covariance_keyframe_ * J.transpose()) * R.transpose();
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-    information.topLeftCorner(dimension_, dimension_) =
-        covariance.topLeftCorner(dimension_, dimension_).inverse();
-    result_.sightings.push_back({observation, place, result_.track.keyframes.back().id, number,
-                                 T_keyframe_robot_ * p,
-                                 (information + information.transpose()) / 2});
+    Sighting sighting =
+        carried_to_keyframe(space_, measured, T_keyframe_robot_, covariance_keyframe_);
+    sighting.observation = observation;
+    sighting.place = place;
+    sighting.keyframe = result_.track.keyframes.back().id;
+    sighting.landmark = number;
+    result_.sightings.push_back(sighting);
   }
 
   Space space_;
   TrackOptions options_;
   LandmarkFilter filter_;
-  LandmarkTrack result_;
-  std::map<int64_t, int> number_of_name_;
+  TrackedLog result_;
+  LandmarkNumbers numbers_;
   std::map<int, int> contradictions_;
   Pose T_odom_latest_;
   // Since the latest keyframe, by odometry alone.
@@ -189,8 +173,8 @@ class LandmarkTracker {
 
 }  // namespace
 
-LandmarkTrack track_landmarks(LogReader& log, const TrackOptions& options,
-                              const std::function<void(const Observation&)>& keep, const Run& run) {
+TrackedLog track_landmarks(LogReader& log, const TrackOptions& options,
+                           const std::function<void(const Observation&)>& keep, const Run& run) {
   validate(options);
   const std::vector<Observation> observations =
       with_noise(read_all(log, run), log.space(), options);
@@ -200,7 +184,7 @@ LandmarkTrack track_landmarks(LogReader& log, const TrackOptions& options,
     tracker.add(observation);
     if (keep) keep(observation);
   }
-  LandmarkTrack result = tracker.take();
+  TrackedLog result = tracker.take();
   result.track.log = log.report();
   if (tracker.left_out() > 0)
     result.track.log.notes["sightings left out: which landmark it is cannot be told"] +=

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "landmark_sightings.hpp"
+#include "landmark_track.hpp"
 #include "tracker.hpp"
 #include "validate_track_options.hpp"
 
@@ -57,21 +59,25 @@ Batch read_batch(LogReader& log) {
   return batch;
 }
 
-void track_batch(Tracker& tracker, Batch& batch,
+void track_batch(Tracker& tracker, LandmarkSightings& sightings, Batch& batch,
                  const std::function<void(const Observation&)>& keep, const Run& run) {
   for (Batch::Entry& entry : batch.entries) {
     if (run.stop_requested()) throw Interrupted{};
     tracker.add(entry.observation, std::move(entry.surface));
+    if (!entry.observation.landmark_readings.empty())
+      sightings.add(entry.observation, tracker.latest(), tracker.covariance_keyframe_robot());
     if (keep) keep(entry.observation);
   }
 }
 
 }  // namespace
 
-Track track_log(LogReader& log, const TrackOptions& options,
-                const std::function<void(const Observation&)>& keep, const Run& run) {
+TrackedLog track_log(LogReader& log, const TrackOptions& options,
+                     const std::function<void(const Observation&)>& keep, const Run& run) {
+  if (log.has_landmarks_only()) return track_landmarks(log, options, keep, run);
   validate(options);
   Tracker tracker(log.space(), options);
+  LandmarkSightings sightings(log.space(), options);
   int64_t count = 0;
   tbb::task_arena arena(run.threads);
   Batch next = read_batch(log);
@@ -81,7 +87,7 @@ Track track_log(LogReader& log, const TrackOptions& options,
     // What is tracked and what is read and prepared meanwhile have nothing in common.
     const auto task = [&](int k) {
       if (k == 0)
-        track_batch(tracker, batch, keep, run);
+        track_batch(tracker, sightings, batch, keep, run);
       else
         next = read_batch(log);
     };
@@ -95,8 +101,14 @@ Track track_log(LogReader& log, const TrackOptions& options,
   run.log_info("registered " + std::to_string(counts.registered) + " of " + std::to_string(count) +
                " observations, " + std::to_string(counts.searched) + " of them after a search; " +
                std::to_string(counts.odometry_only) + " by odometry alone");
-  Track track = tracker.take();
+  TrackedLog result{tracker.take(), sightings.take(), sightings.names()};
+  Track& track = result.track;
   track.log = log.report();
+  if (sightings.unnamed() > 0)
+    track.log.notes["landmarks without a name left out beside scans"] += sightings.unnamed();
+  if (!result.sightings.empty())
+    run.log_info(std::to_string(result.sightings.size()) + " sightings of " +
+                 std::to_string(result.names.size()) + " landmarks");
   if (counts.odometry_jumps > 0) {
     track.log.notes["odometry jumps, bridged by registration"] += counts.odometry_jumps;
     run.log_warning("odometry jumps " + std::to_string(counts.odometry_jumps) +
@@ -109,7 +121,7 @@ Track track_log(LogReader& log, const TrackOptions& options,
                     " times: without odometry these clouds fit nowhere on those before; how the "
                     "robot went there is a guess");
   }
-  return track;
+  return result;
 }
 
 }  // namespace hmt::submap

@@ -54,6 +54,7 @@ void Tracker::start(const Observation& observation, Surface surface) {
   add_keyframe(observation,
                {T_track_latest_, diagonal_in(space_, kDefining, kDefining), true, T_track_latest_},
                std::move(surface));
+  information_latest_ = information_keyframe_;
 }
 
 void Tracker::add(const Observation& observation, Surface surface) {
@@ -74,6 +75,7 @@ void Tracker::add(const Observation& observation, Surface surface) {
     latest_step_ = relative_pose(T_track_latest_, found.T_track_robot);
     latest_duration_s_ = motion.duration_s;
     T_track_latest_ = found.T_track_robot;
+    information_latest_ = found.information;
     covariance_latest_ =
         found.registered ? inverse_in(space_, inverse_in(space_, covariance) + found.information)
                          : covariance;
@@ -201,6 +203,15 @@ void Tracker::add_keyframe(const Observation& observation, const Estimate& estim
   T_keyframe_odometry_ = Pose{};
   information_keyframe_ = estimate.information;
   odometry_unbroken_ = true;
+}
+
+Matrix6d Tracker::covariance_keyframe_robot() const {
+  const Matrix6d by_registration = compose_information(space_, latest().T_keyframe_robot,
+                                                       information_keyframe_, information_latest_);
+  const Matrix6d by_odometry =
+      inverse_in(space_, odometry_unbroken_ ? keyframe_odometry_.covariance(T_keyframe_odometry_)
+                                            : unknown_step(space_));
+  return inverse_in(space_, by_registration + by_odometry);
 }
 
 Track Tracker::take() {

@@ -28,6 +28,10 @@ class Tracker {
   /// `surface`: what the observation saw.
   void add(const Observation& observation, Surface surface);
   const TrackCounts& counts() const { return counts_; }
+  /// The one added last.
+  const TrackedObservation& latest() const { return track_.observations.back(); }
+  /// Of its T_keyframe_robot, by registration and odometry (tangent of Pose, frame of the robot).
+  Matrix6d covariance_keyframe_robot() const;
   /// Everything but the log report, at the end of the log.
   Track take();
 
@@ -79,7 +83,8 @@ class Tracker {
   double stamp_latest_s_ = 0;
   Pose T_odom_latest_;
   Pose T_track_latest_;
-  Matrix6d covariance_latest_ = Matrix6d::Zero();  // against the local map
+  Matrix6d covariance_latest_ = Matrix6d::Zero();   // against the local map
+  Matrix6d information_latest_ = Matrix6d::Zero();  // of its registration
   // Since the latest keyframe, by odometry alone.
   Pose T_keyframe_odometry_;
   Matrix6d information_keyframe_ = Matrix6d::Zero();  // of its registration

@@ -39,7 +39,7 @@ class MemoryLog : public LogReader {
 
 Track track(const std::vector<Observation>& observations) {
   MemoryLog log(observations);
-  return track_log(log, {}, {}, {});
+  return track_log(log, {}, {}, {}).track;
 }
 
 Pose tracked_pose(const Track& track, size_t i) {
@@ -213,7 +213,7 @@ constexpr auto kLost = "clouds without odometry that fit nowhere, a guess took t
 TEST(TrackLog, FollowsCloudsWithoutOdometry) {
   const SimulatedLog log = carried_lidar();
   MemoryLog reader(log.observations, Space::se3);
-  const Track found = track_log(reader, {}, {}, {});
+  const Track found = track_log(reader, {}, {}, {}).track;
   EXPECT_LT(largest_error_m(found, log.T_world_robot, 1), 0.02);
   EXPECT_LT(largest_error_m(found, log.T_world_robot, 15), 0.05);
   EXPECT_EQ(found.log.notes.count(kLost), 0);
@@ -224,7 +224,7 @@ TEST(TrackLog, TellsWhereCloudsWithoutOdometryFitNowhereAndGoesOn) {
   // A room four times as large.
   for (auto& point : log.observations[7].readings[0].points_sensor) point *= 4;
   MemoryLog reader(log.observations, Space::se3);
-  const Track found = track_log(reader, {}, {}, {});
+  const Track found = track_log(reader, {}, {}, {}).track;
   ASSERT_EQ(found.log.notes.count(kLost), 1);
   EXPECT_LE(found.log.notes.at(kLost), 2);
   const Pose is = graph::relative_pose(tracked_pose(found, 9), tracked_pose(found, 15));

@@ -72,6 +72,12 @@ MessageKind message_kind(std::string_view type) {
     if (name == "PointCloud2") return MessageKind::cloud;
     if (name == "Imu") return MessageKind::imu;
   }
+  if (package == "apriltag_ros" && name == "AprilTagDetectionArray") return MessageKind::april_tags;
+  if (package == "ros2_aruco_interfaces" && name == "ArucoMarkers")
+    return MessageKind::aruco_markers;
+  if (package == "aruco_opencv_msgs" && name == "ArucoDetection")
+    return MessageKind::aruco_detection;
+  if (type == "vision_msgs/msg/Detection3DArray") return MessageKind::detections;
   if (package == "nav_msgs" && name == "Odometry") return MessageKind::odometry;
   if ((package == "tf2_msgs" && name == "TFMessage") || (package == "tf" && name == "tfMessage"))
     return MessageKind::transforms;
@@ -81,6 +87,11 @@ MessageKind message_kind(std::string_view type) {
 bool is_range_data(MessageKind kind) {
   return kind == MessageKind::laser_scan || kind == MessageKind::multi_echo_scan ||
          kind == MessageKind::cloud;
+}
+
+bool is_landmark_data(MessageKind kind) {
+  return kind == MessageKind::april_tags || kind == MessageKind::aruco_markers ||
+         kind == MessageKind::aruco_detection || kind == MessageKind::detections;
 }
 
 MessageHeader read_header(WireReader& in) {

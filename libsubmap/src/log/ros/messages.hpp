@@ -19,13 +19,27 @@ namespace hmt::submap {
 // for one that is cut or contradicts itself.
 
 /// What kind of message a topic carries, for us.
-enum class MessageKind { laser_scan, multi_echo_scan, cloud, odometry, transforms, imu, other };
+enum class MessageKind {
+  laser_scan,
+  multi_echo_scan,
+  cloud,
+  april_tags,       ///< apriltag_ros/AprilTagDetectionArray
+  aruco_markers,    ///< ros2_aruco_interfaces/ArucoMarkers
+  aruco_detection,  ///< aruco_opencv_msgs/ArucoDetection
+  detections,       ///< vision_msgs/msg/Detection3DArray, of ROS 2 only: that of ROS 1 has no ids
+  odometry,
+  transforms,
+  imu,
+  other
+};
 
 /// By its type: "sensor_msgs/LaserScan", and the same in the spelling of ROS 2,
 /// "sensor_msgs/msg/LaserScan".
 MessageKind message_kind(std::string_view type);
 /// Whether messages of this kind are what a range sensor saw.
 bool is_range_data(MessageKind kind);
+/// Whether messages of this kind are landmarks with names, and how they stand to the sensor.
+bool is_landmark_data(MessageKind kind);
 
 /// Without the leading slash that old ROS 1 logs have.
 std::string frame_name(std::string_view name);

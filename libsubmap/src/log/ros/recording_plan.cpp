@@ -13,6 +13,7 @@ constexpr uint64_t kBytesAhead = uint64_t{64} << 20;
 /// Stamps of one clock are received later by much less.
 constexpr int64_t kOneClock_ns = 1'000'000'000;
 constexpr size_t kMaxDelays = 1000;
+const std::string kNoLandmarks = "none";
 const std::array<std::string, 2> kRobotFrames = {"base_link", "base_footprint"};
 
 /// What the first part of a recording shows of one topic.
@@ -134,11 +135,13 @@ class Choice {
 
   RecordingPlan make() {
     plan_.transforms = survey_.transforms();
-    const Topics scans = choose_scans();
-    const SeenTopic* odometry = choose_odometry(*scans.front());
+    const Topics landmarks = choose_landmarks();
+    const Topics scans = choose_scans(!landmarks.empty());
+    const Topics& first = scans.empty() ? landmarks : scans;
+    const SeenTopic* odometry = choose_odometry(*first.front());
     choose_imu();
-    for (const SeenTopic* scan : scans) {
-      plan_.scan_topics.push_back(scan->topic.name);
+    for (const SeenTopic* scan : first) {
+      if (!scans.empty()) plan_.scan_topics.push_back(scan->topic.name);
       if (scan->topic.kind() == MessageKind::cloud) plan_.space = Space::se3;
       compare_clocks(*scan, *odometry);
     }
@@ -166,13 +169,28 @@ class Choice {
     return *place;
   }
 
-  Topics choose_scans() const {
+  /// Those with messages, or that were named: markers may come up later than the survey looks.
+  Topics choose_landmarks() {
+    plan_.landmark_topics = options_.landmark_topics;
+    const Topics all = of_kind(is_landmark_data);
+    Topics chosen;
+    for (const std::string& name : plan_.landmark_topics)
+      if (name != kNoLandmarks) chosen.push_back(named(all, name, "landmark"));
+    std::ranges::copy_if(all, std::back_inserter(chosen), [&](const SeenTopic* seen) {
+      return plan_.landmark_topics.empty() && seen->messages > 0 &&
+             takes_landmarks(seen->topic.name, seen->topic.kind(), {});
+    });
+    return chosen;
+  }
+
+  /// Empty where there are none, but landmarks.
+  Topics choose_scans(bool has_landmarks) const {
     const Topics all = of_kind(is_range_data);
     Topics chosen;
     for (const std::string& name : options_.scan_topics) chosen.push_back(named(all, name, "scan"));
     if (!chosen.empty()) return chosen;
     std::ranges::copy_if(all, std::back_inserter(chosen), [](auto* s) { return s->messages > 0; });
-    if (chosen.size() == 1) return chosen;
+    if (chosen.size() == 1 || (chosen.empty() && has_landmarks)) return chosen;
     if (chosen.empty())
       refuse("no scans (LaserScan, MultiEchoLaserScan or PointCloud2) in this recording; topics: " +
              list_of(of_kind([](MessageKind) { return true; })));
@@ -244,6 +262,14 @@ class Choice {
 };
 
 }  // namespace
+
+bool takes_landmarks(const std::string& topic, MessageKind kind,
+                     const std::vector<std::string>& chosen) {
+  if (!is_landmark_data(kind)) return false;
+  // Detections may be of anything, people too.
+  if (chosen.empty()) return kind != MessageKind::detections;
+  return topic != kNoLandmarks && std::ranges::find(chosen, topic) != chosen.end();
+}
 
 RecordingPlan plan_recording(const std::filesystem::path& path, const LogOptions& options) {
   const Survey survey(open_recording(path, options.further_parts));

@@ -12,9 +12,11 @@ namespace hmt::submap {
 
 /// What of a recording a map is made of.
 struct RecordingPlan {
-  std::vector<std::string> scan_topics;  ///< sensor k is that of topic k
-  std::string odometry_topic;            ///< of nav_msgs/Odometry; empty: the odometry is in /tf
-  std::string odom_frame;                ///< with odometry in /tf: the parent of robot_frame
+  std::vector<std::string> scan_topics;  ///< sensor k is that of topic k; empty: only landmarks
+  /// Topics of landmarks that the user named; empty: each that carries markers.
+  std::vector<std::string> landmark_topics;
+  std::string odometry_topic;  ///< of nav_msgs/Odometry; empty: the odometry is in /tf
+  std::string odom_frame;      ///< with odometry in /tf: the parent of robot_frame
   std::string robot_frame;
   std::string imu_topic;     ///< the only one; empty if there is none, or several
   Space space = Space::se2;  ///< se3 as soon as one topic has clouds
@@ -25,8 +27,13 @@ struct RecordingPlan {
 };
 
 /// Reads a recording until 200 scans and some odometry were seen, 64 MB at least, and chooses the
-/// topics: those that `options` names, otherwise the only one of its kind. Throws InputError
-/// listing the topics where there is none or the choice is not obvious.
+/// topics: those that `options` names, otherwise the only one of its kind, and without scans
+/// landmarks. Throws InputError listing the topics where there is none or the choice is not
+/// obvious.
 RecordingPlan plan_recording(const std::filesystem::path& path, const LogOptions& options);
+
+/// Whether landmarks are read from a topic of such messages.
+bool takes_landmarks(const std::string& topic, MessageKind kind,
+                     const std::vector<std::string>& chosen);
 
 }  // namespace hmt::submap

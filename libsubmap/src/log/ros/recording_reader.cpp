@@ -22,6 +22,9 @@ constexpr double kSameObservation = 0.2;  // seconds
 /// Odometry is recorded later than the scan by less.
 constexpr uint64_t kMaxWait_ns = 2'000'000'000;
 constexpr size_t kMaxWaiting = 400;
+constexpr size_t kMaxCloudsWaiting = 40;
+/// Landmarks are found in an image and recorded within this time.
+constexpr uint64_t kLandmarkDelay_ns = 1'000'000'000;
 /// Where a scan does not tell its greatest range; no planar laser reaches further than the second.
 constexpr double kDefaultMaxRange = 80;     // metres
 constexpr double kGreatestMaxRange = 1000;  // metres
@@ -69,19 +72,57 @@ RecordingReader::RecordingReader(const std::filesystem::path& path, const LogOpt
     note("scans and odometry have different clocks: their times of receipt are taken",
          path.string());
   const size_t wanted = plan_.space == Space::se2 ? kScansAhead : kCloudsAhead;
-  while (ahead_.size() < wanted && read_message()) {
+  while (ahead_.size() < wanted && !(has_landmarks_only() && !sights_.empty()) && read_message()) {
   }
-  if (!ahead_.empty()) return;
-  throw InputError(path.string() + ": no usable scan" + first_loss(report_));
+  if (!ahead_.empty() || !sights_.empty()) return;
+  throw InputError(path.string() + ": no usable " + (has_landmarks_only() ? "landmark" : "scan") +
+                   first_loss(report_));
 }
 
 std::optional<Observation> RecordingReader::next() {
-  while (ahead_.size() < 2 && read_message()) {
+  return has_landmarks_only() ? next_landmarks() : next_scans();
+}
+
+/// Whether what belongs to something received then has come, too.
+bool RecordingReader::has_read_past(int64_t received_ns) const {
+  return stamp_distance(last_received_ns_, received_ns) > kLandmarkDelay_ns;
+}
+
+std::optional<Observation> RecordingReader::next_landmarks() {
+  while (true) {
+    while ((sights_.empty() || !has_read_past(sights_.front().received_ns)) &&
+           sights_.size() < kMaxWaiting && read_message()) {
+    }
+    if (sights_.empty()) return std::nullopt;
+    const LandmarkSight sight = sights_.pop();
+    const auto T_odom_robot = odometry_.at(sight.stamp_ns);
+    if (!T_odom_robot) {
+      lose("landmarks without odometry at their time", sight.place);
+      continue;
+    }
+    note_stamp(sight.own_stamp_s, sight.place);
+    Observation observation;
+    observation.index = report_.observations++;
+    observation.stamp_s = sight.own_stamp_s;
+    observation.T_odom_robot = *T_odom_robot;
+    observation.landmark_readings.push_back(as_reading(sight, Pose{}, plan_.space));
+    return observation;
+  }
+}
+
+std::optional<Observation> RecordingReader::next_scans() {
+  // Cameras tell later than scanners what they saw.
+  const size_t most = plan_.space == Space::se2 ? kMaxWaiting : kMaxCloudsWaiting;
+  const auto is_complete = [&] {
+    return ahead_.size() >= 2 && (landmark_sensors_.empty() || ahead_.size() >= most ||
+                                  has_read_past(ahead_.front().received_ns));
+  };
+  while (!is_complete() && read_message()) {
   }
   if (ahead_.empty()) return std::nullopt;
   const Scan scan = std::move(ahead_.front());
   ahead_.pop_front();
-  note_stamp(scan);
+  note_stamp(scan.own_stamp_s, scan.place);
 
   Observation observation;
   observation.index = report_.observations++;
@@ -97,7 +138,20 @@ std::optional<Observation> RecordingReader::next() {
     observation.readings.push_back(reading(ahead_.front(), observation.T_odom_robot));
     ahead_.pop_front();
   }
+  join_landmarks(scan, observation);
   return observation;
+}
+
+void RecordingReader::join_landmarks(const Scan& scan, Observation& observation) {
+  if (sights_.empty()) return;
+  const std::string where = sights_.front().place;
+  std::optional<int64_t> next_stamp_ns;
+  if (!ahead_.empty()) next_stamp_ns = ahead_.front().stamp_ns;
+  LandmarkSights::Taken taken =
+      sights_.take(observation.T_odom_robot, scan.stamp_ns, next_stamp_ns, odometry_, plan_.space);
+  observation.landmark_readings = std::move(taken.readings);
+  lose("landmarks more than a second from any scan", where, taken.too_far);
+  lose("landmarks without odometry at their time", where, taken.without_odometry);
 }
 
 bool RecordingReader::read_message() {
@@ -127,6 +181,8 @@ void RecordingReader::use_message(const RecordedMessage& message) {
     } else if (kind == MessageKind::odometry && topic.name == plan_.odometry_topic) {
       const OdometryMessage odometry = read_odometry({message.data, *topic.wire});
       add_odometry(odometry.header, message.received_ns, odometry.T_odom_robot);
+    } else if (takes_landmarks(topic.name, kind, plan_.landmark_topics)) {
+      add_landmarks(message, topic);
     } else if (kind == MessageKind::transforms) {
       add_transforms(message, topic);
     } else if (kind == MessageKind::imu && topic.name == plan_.imu_topic) {
@@ -185,6 +241,34 @@ bool RecordingReader::mount_in_plane(Scan& scan) {
   scan.is_upside_down = upwards < 0;
   scan.T_robot_sensor = in_plane(scan.T_robot_sensor);
   return true;
+}
+
+void RecordingReader::add_landmarks(const RecordedMessage& message, const RecordedTopic& topic) {
+  MarkersMessage seen = read_markers({message.data, *topic.wire}, topic.kind());
+  lose("landmarks whose position or covariance is none on " + topic.name, place(topic),
+       seen.refused);
+  note("landmarks left out: without a name that is one number", place(topic), seen.unnamed);
+  // How a camera looks no one can guess: its frame and that of its mount differ by a quarter turn.
+  const auto T_robot_sensor =
+      plan_.transforms.find(plan_.robot_frame, seen.header.frame, seen.header.stamp_ns);
+  if (!T_robot_sensor) {
+    lose("landmarks left out: no transform from frame " + plan_.robot_frame + " to " +
+             seen.header.frame,
+         place(topic));
+    return;
+  }
+  const auto sensors = static_cast<int>(plan_.scan_topics.size() + landmark_sensors_.size());
+  LandmarkSight sight;
+  sight.sensor = landmark_sensors_.try_emplace(topic.name, sensors).first->second;
+  sight.stamp_ns = clock_ns(seen.header, message.received_ns);
+  sight.received_ns = message.received_ns;
+  sight.own_stamp_s =
+      seconds(seen.header.stamp_ns != 0 ? seen.header.stamp_ns : message.received_ns);
+  sight.place = place(topic);
+  sight.T_robot_sensor = *T_robot_sensor;
+  sight.markers = std::move(seen.markers);
+  if (!sights_.add(std::move(sight)))
+    lose("landmarks more than a second from any scan", place(topic));
 }
 
 void RecordingReader::add_odometry(const MessageHeader& header, int64_t received_ns,
@@ -313,13 +397,13 @@ Reading RecordingReader::cloud_reading(const Scan& scan, Reading reading) {
   return reading;
 }
 
-void RecordingReader::note_stamp(const Scan& scan) {
-  if (last_stamp_s_ && scan.own_stamp_s < *last_stamp_s_) {
-    note("stamps run backwards", scan.place);
-  } else if (last_stamp_s_ && scan.own_stamp_s == *last_stamp_s_) {
-    note("stamps repeated", scan.place);
+void RecordingReader::note_stamp(double stamp_s, const std::string& place) {
+  if (last_stamp_s_ && stamp_s < *last_stamp_s_) {
+    note("stamps run backwards", place);
+  } else if (last_stamp_s_ && stamp_s == *last_stamp_s_) {
+    note("stamps repeated", place);
   }
-  last_stamp_s_ = scan.own_stamp_s;
+  last_stamp_s_ = stamp_s;
 }
 
 void RecordingReader::note(const std::string& what, const std::string& place, int64_t times) {

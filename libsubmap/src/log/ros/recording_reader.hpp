@@ -8,6 +8,7 @@
 
 #include "../range_limit.hpp"
 #include "hmt/submap/log/log_reader.hpp"
+#include "landmark_sights.hpp"
 #include "pose_history.hpp"
 #include "recording_plan.hpp"
 #include "sweep.hpp"
@@ -22,6 +23,9 @@ namespace hmt::submap {
 /// at the stamp: each point is moved by what the odometry, and a gyroscope, say that the robot did
 /// in between.
 ///
+/// Landmarks are further readings of the observation that is nearest in time. Where there are no
+/// scans each message of them is an observation.
+///
 /// A scan waits until the odometry around it has been read, but for no more than two seconds
 /// of the recording. Laser scans are read ahead to learn the code for a miss, as from CARMEN logs.
 class RecordingReader : public LogReader {
@@ -33,6 +37,7 @@ class RecordingReader : public LogReader {
   int64_t bytes_read() const override { return recording_->bytes_read(); }
   int64_t bytes_total() const override { return bytes_total_; }
   Space space() const override { return plan_.space; }
+  bool has_landmarks_only() const override { return plan_.scan_topics.empty(); }
 
  private:
   /// A scan or a cloud on its way to become a reading.
@@ -54,9 +59,14 @@ class RecordingReader : public LogReader {
     bool is_upside_down = false;
   };
 
+  std::optional<Observation> next_scans();
+  std::optional<Observation> next_landmarks();
+  bool has_read_past(int64_t received_ns) const;
   bool read_message();
   void use_message(const RecordedMessage& message);
   void add_scan(const RecordedMessage& message, size_t sensor, const RecordedTopic& topic);
+  void add_landmarks(const RecordedMessage& message, const RecordedTopic& topic);
+  void join_landmarks(const Scan& scan, Observation& observation);
   void add_odometry(const MessageHeader& header, int64_t received_ns, const Pose& T_odom_robot);
   void add_imu(const RecordedMessage& message, const RecordedTopic& topic);
   void add_transforms(const RecordedMessage& message, const RecordedTopic& topic);
@@ -70,7 +80,7 @@ class RecordingReader : public LogReader {
   Reading reading(const Scan& scan, const Pose& T_odom_robot);
   Reading laser_reading(const Scan& scan, Reading reading);
   Reading cloud_reading(const Scan& scan, Reading reading);
-  void note_stamp(const Scan& scan);
+  void note_stamp(double stamp_s, const std::string& place);
   void note(const std::string& what, const std::string& place, int64_t times = 1);
   void lose(const std::string& what, const std::string& place, int64_t times = 1);
   std::string place(const RecordedTopic& topic) const;
@@ -85,6 +95,8 @@ class RecordingReader : public LogReader {
   std::map<size_t, RangeLimit> limits_;  ///< by sensor
   std::deque<Scan> waiting_;             ///< for their odometry
   std::deque<Scan> ahead_;               ///< with their pose
+  LandmarkSights sights_;
+  std::map<std::string, int> landmark_sensors_;  ///< by topic, as they come up
   int64_t last_received_ns_ = 0;
   int64_t messages_ = 0;
   std::optional<double> last_stamp_s_;

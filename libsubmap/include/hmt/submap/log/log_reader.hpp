@@ -57,6 +57,8 @@ struct LogOptions {
   std::string odometry_file;
   /// Robot of a folder with the logs of several, >= 0; must be given for such a folder.
   std::optional<int> robot = std::nullopt;
+  /// Topics of landmarks; empty: all that carry markers; the one name "none": no landmarks.
+  std::vector<std::string> landmark_topics = {};
   /// What goes on where the log ends: the further parts of a split recording, in their order. Of
   /// CARMEN logs and recordings of ROS, all parts of one format.
   std::vector<std::filesystem::path> further_parts = {};

@@ -9,6 +9,7 @@
 #include "hmt/submap/log/log_reader.hpp"
 #include "hmt/submap/observation/observation_store.hpp"
 #include "hmt/submap/registration/constraint.hpp"
+#include "hmt/submap/registration/sighting.hpp"
 #include "hmt/submap/run.hpp"
 
 namespace hmt::submap {
@@ -35,7 +36,7 @@ struct TrackedObservation {
   bool operator==(const TrackedObservation&) const = default;
 };
 
-/// What the front end makes of a log.
+/// The robot's way through a log.
 struct Track {
   Space space = Space::se2;
   std::vector<Keyframe> keyframes;
@@ -44,6 +45,13 @@ struct Track {
   LogReport log;
 
   bool operator==(const Track&) const = default;
+};
+
+/// What the front end makes of a log.
+struct TrackedLog {
+  Track track;
+  std::vector<Sighting> sightings;  ///< in the order of the log
+  std::vector<int64_t> names;       ///< of landmark 0, 1, ..; kUnknownLandmark without one
 };
 
 struct TrackOptions {
@@ -56,7 +64,10 @@ struct TrackOptions {
 /// Reads the log once and corrects its odometry by registering each observation against the recent
 /// local map. `keep` is called once for every observation, in order, so that its points can be
 /// stored; only a window of recent surfaces is held in memory. An empty log throws InputError.
-Track track_log(LogReader& log, const TrackOptions& options,
-                const std::function<void(const Observation&)>& keep, const Run& run);
+///
+/// Landmarks that have names are sighted from where the observations stand; those without are
+/// counted and left out. A log of landmarks alone is followed by these: see track_landmarks().
+TrackedLog track_log(LogReader& log, const TrackOptions& options,
+                     const std::function<void(const Observation&)>& keep, const Run& run);
 
 }  // namespace hmt::submap

@@ -2,17 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "hmt/submap/registration/sighting.hpp"
 #include "hmt/submap/registration/track.hpp"
 
 namespace hmt::submap {
-
-/// What the front end makes of a log of landmarks.
-struct LandmarkTrack {
-  Track track;
-  std::vector<Sighting> sightings;  ///< in the order of the log
-  std::vector<int64_t> names;       ///< of landmark 0, 1, ..; kUnknownLandmark without one
-};
 
 /// Reads a log of landmarks once and follows the robot by a Kalman filter over its pose and the
 /// landmarks seen most recently. A name in the log is a landmark; measurements without one are
@@ -23,7 +15,7 @@ struct LandmarkTrack {
 /// landmarks as fix a pose, so that each sees something. It holds what all observations saw that
 /// hang on it. `keep` is called once for every observation, in order, with all covariances. Memory
 /// grows with the log. An empty log throws InputError.
-LandmarkTrack track_landmarks(LogReader& log, const TrackOptions& options,
-                              const std::function<void(const Observation&)>& keep, const Run& run);
+TrackedLog track_landmarks(LogReader& log, const TrackOptions& options,
+                           const std::function<void(const Observation&)>& keep, const Run& run);
 
 }  // namespace hmt::submap
