@@ -215,6 +215,7 @@ Registration Locator::search_around(const Registration& first) const {
     RegistrationOptions options;
     options.space = space_;
     options.max_correspondence_m = kNearCorrespondence_m;
+    options.is_guess_vague = true;
     options.prior = prior_contradicted_by(match.T_map_robot);
     const Registration found =
         register_surface(surface_, map_.target(), match.T_map_robot, options);

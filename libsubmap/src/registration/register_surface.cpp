@@ -75,7 +75,7 @@ Registration register_surface(const Surface& source, const RegistrationTarget& t
                               const RegistrationOptions& options) {
   Registration result;
   result.T_target_source = T_target_source_guess;
-  SurfaceMatcher matcher(source, target.impl(), options.max_correspondence_m, options.scale_across);
+  SurfaceMatcher matcher(source, target.impl(), options);
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     matcher.match(result.T_target_source);
     if (matcher.matches().size() < 3) return result;

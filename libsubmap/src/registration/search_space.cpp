@@ -89,7 +89,9 @@ bool is_distinct(const Pose& a, const Pose& b) {
 }  // namespace
 
 double met_share(const Surface& source, const RegistrationTarget& map, const Pose& T_map_robot) {
-  SurfaceMatcher matcher(source, map.impl(), kMeetReach_m);
+  RegistrationOptions options;
+  options.max_correspondence_m = kMeetReach_m;
+  SurfaceMatcher matcher(source, map.impl(), options);
   matcher.match(T_map_robot);
   Eigen::Matrix3d all = Eigen::Matrix3d::Zero(), met = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& normal : source.normals_robot) all += normal * normal.transpose();
@@ -110,6 +112,7 @@ std::vector<SpaceMatch> search_space(const Surface& source, const RegistrationTa
   RegistrationOptions options;
   options.space = Space::se3;
   options.max_correspondence_m = kReach_m;
+  options.is_guess_vague = true;
   options.max_iterations = kIterations;
   std::vector<SpaceMatch> found;
   for (const Pose& guess : T_map_robot_guesses)

@@ -25,12 +25,11 @@ constexpr size_t kLeastAcross = 4;
 constexpr int kStanding = 2;
 // Neighbors on one surface are looked for at least this far.
 constexpr double kLeastRadius_m = 0.15;
-// Rings of a lidar lie metres apart on the ground: a narrower search would find those points alone
-// that happen to lie on each other, and leave out what makes sparse clouds fit.
-constexpr double kLeastCloudRadius_m = 0.5;
-// A wider search in space narrows by steps: while a cloud is turned by ten degrees, only what is
-// near it fits, and what fits would bound the search at once.
-constexpr double kNarrowing = 0.7;
+// From a vague guess: rings of a lidar lie metres apart on the ground, and a narrower search would
+// find those points alone that happen to lie on each other. While a cloud is turned by ten degrees,
+// only what is near it fits, and what fits would bound the search at once.
+constexpr double kLeastVagueRadius_m = 0.5;
+constexpr double kVagueNarrowing = 0.7;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
 }  // namespace
@@ -42,17 +41,18 @@ double robust_weight(double residual_m, double scale_m) {
 }
 
 SurfaceMatcher::SurfaceMatcher(const Surface& source, const RegistrationTarget::Impl& target,
-                               double radius_m, bool scale_across)
+                               const RegistrationOptions& options)
     : source_(&source),
       target_(&target),
       last_(source.size(), kNone),
       across_(source.size(), 0),
-      along_{radius_m, radius_m},
-      across_reach_{radius_m, radius_m} {
+      along_{options.max_correspondence_m, options.max_correspondence_m},
+      across_reach_(along_),
+      is_guess_vague_(options.is_guess_vague) {
   for (uint32_t i = 0; i < source.size(); ++i)
     if (!source.normals_robot[i].isZero(0)) usable_.push_back(i);
   matches_.reserve(usable_.size());
-  if (scale_across) divide_source();
+  if (options.scale_across) divide_source();
 }
 
 void SurfaceMatcher::divide_source() {
@@ -138,10 +138,11 @@ void SurfaceMatcher::shrink(Reach& reach, double median_m, const Belongs& belong
   const double noise_m = count == 0 ? 0 : std::sqrt(variance / static_cast<double>(count));
   const double wanted_m = kScaleDeviations * std::max(noise_m, kDeviationOverMedian * median_m);
   shrunk_ = shrunk_ || wanted_m < 0.99 * reach.scale_m;
-  const bool stepwise = !target_->planar && reach.scale_m > kLeastCloudRadius_m;
-  reach.scale_m =
-      std::min(reach.scale_m, stepwise ? std::max(wanted_m, kNarrowing * reach.scale_m) : wanted_m);
-  const double least_m = target_->planar ? kLeastRadius_m : kLeastCloudRadius_m;
+  const bool stepwise = is_guess_vague_ && reach.scale_m > kLeastVagueRadius_m;
+  const double narrower_m =
+      stepwise ? std::max(wanted_m, kVagueNarrowing * reach.scale_m) : wanted_m;
+  reach.scale_m = std::min(reach.scale_m, narrower_m);
+  const double least_m = is_guess_vague_ ? kLeastVagueRadius_m : kLeastRadius_m;
   reach.radius_m = std::min(reach.radius_m, std::max(least_m, 2 * reach.scale_m));
   for (Match& match : matches_)
     if (belongs(match)) match.scale_m = reach.scale_m;

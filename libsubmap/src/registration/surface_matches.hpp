@@ -28,11 +28,11 @@ struct Match {
 double robust_weight(double residual_m, double scale_m);
 
 /// Finds matches at changing poses, with a search radius and a robust scale that shrink with the
-/// residuals from call to call; `scale_across`: as RegistrationOptions.
+/// residuals from call to call, as the options say.
 class SurfaceMatcher {
  public:
-  SurfaceMatcher(const Surface& source, const RegistrationTarget::Impl& target, double radius_m,
-                 bool scale_across = false);
+  SurfaceMatcher(const Surface& source, const RegistrationTarget::Impl& target,
+                 const RegistrationOptions& options);
 
   void match(const Pose& T_target_source);
   const std::vector<Match>& matches() const { return matches_; }
@@ -68,6 +68,7 @@ class SurfaceMatcher {
   std::vector<double> sorted_;
   Reach along_;
   Reach across_reach_;
+  bool is_guess_vague_;
   bool shrunk_ = true;
 };
 

@@ -46,6 +46,9 @@ struct RegistrationOptions {
   /// First radius of the search for corresponding points, metres; shrinks with the residuals. Raise
   /// it for worse guesses.
   double max_correspondence_m = 0.5;
+  /// In space: nothing tells how far off the guess is. The search narrows by steps, so that what
+  /// happens to lie near it does not bound the search at once, and not below half a metre.
+  bool is_guess_vague = false;
   int max_iterations = 40;
   /// In the plane: surfaces across the main direction of the source have a robust scale of their
   /// own. The jambs of a few doors are all that tells the way along a corridor, and walls that fit
