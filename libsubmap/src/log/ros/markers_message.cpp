@@ -50,7 +50,7 @@ std::optional<Eigen::Matrix3d> usable(const Eigen::Matrix3d& covariance) {
       !(covariance - symmetric).isZero(1e-6 * symmetric.cwiseAbs().maxCoeff()))
     return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetric);
-  const Eigen::Vector3d variances = eigen.eigenvalues();
+  const Eigen::Vector3d& variances = eigen.eigenvalues();
   if (!(variances[0] >= -1e-9 * variances[2])) return std::nullopt;
   if (variances[0] >= kFinest_m * kFinest_m) return symmetric;
   return eigen.eigenvectors() * variances.cwiseMax(kFinest_m * kFinest_m).asDiagonal() *
