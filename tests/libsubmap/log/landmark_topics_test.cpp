@@ -72,6 +72,7 @@ TEST(MarkerMessages, WhatIsNoPlaceOrNoCovarianceIsRefused) {
   SampleMarker negative = marker(6, 1, 0, 0, 0.01);
   negative.covariance(1, 1) = -0.01;
   const std::vector<SampleMarker> markers = {marker(1, nan, 0, 0),
+                                             marker(1, 1, nan, 0),
                                              marker(2, 1e9, 0, 0),
                                              marker(3, 1, 0, 0, nan),
                                              marker(4, 1, 0, 0, 1e300),
@@ -82,7 +83,7 @@ TEST(MarkerMessages, WhatIsNoPlaceOrNoCovarianceIsRefused) {
   const MarkersMessage message =
       read_markers({april_tags(WireWriter(Wire::ros1), kStart, "camera", markers), Wire::ros1},
                    MessageKind::april_tags);
-  EXPECT_EQ(message.refused, 6);
+  EXPECT_EQ(message.refused, 7);
   EXPECT_EQ(message.unnamed, 1);
   // Finer than anything measures is as fine as it gets.
   ASSERT_EQ(message.markers.size(), 1u);

@@ -178,5 +178,16 @@ TEST(PoseHistory, InterpolatesWithinGapsAndHoldsShortly) {
   EXPECT_FALSE(history.at(std::numeric_limits<int64_t>::min()));
 }
 
+TEST(RosMessages, TurnRatesThatAreNoneAreRefusedWhereverTheyStand) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {nan, std::numeric_limits<double>::infinity(), 1e9})
+    for (int k = 0; k < 3; ++k) {
+      Eigen::Vector3d rates(0.1, 0.2, 0.3);
+      rates[k] = bad;
+      const std::string bytes = test::imu(WireWriter(Wire::cdr), 0, "imu", rates);
+      EXPECT_THROW(read_imu({bytes, Wire::cdr}), MessageError) << bad << " at " << k;
+    }
+}
+
 }  // namespace
 }  // namespace hmt::submap

@@ -59,7 +59,9 @@ std::optional<Eigen::Matrix3d> usable(const Eigen::Matrix3d& covariance) {
 
 void add(const std::optional<int64_t>& name, Marker marker, MarkersMessage& message) {
   const auto covariance = usable(marker.covariance);
-  if (!covariance || !(marker.position.lpNorm<Eigen::Infinity>() <= kMaxDistance_m)) {
+  // The greatest of some numbers may skip what is none.
+  if (!covariance || !marker.position.allFinite() ||
+      marker.position.cwiseAbs().maxCoeff() > kMaxDistance_m) {
     ++message.refused;
   } else if (!name || *name < 0) {
     ++message.unnamed;

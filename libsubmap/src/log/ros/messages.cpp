@@ -142,7 +142,8 @@ std::optional<ImuMessage> read_imu(WireReader in) {
   for (double& rate : imu.turn_rate) rate = in.number<double>();
   // A covariance that begins with -1 says that the sensor does not measure it.
   if (in.number<double>() == -1) return std::nullopt;
-  if (!(imu.turn_rate.lpNorm<Eigen::Infinity>() <= kMaxTurnRate))
+  // The greatest of some numbers may skip what is none.
+  if (!imu.turn_rate.allFinite() || imu.turn_rate.lpNorm<Eigen::Infinity>() > kMaxTurnRate)
     throw MessageError("the angular velocity is none");
   return imu;
 }
