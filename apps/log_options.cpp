@@ -23,7 +23,7 @@ void add_log_options(CLI::App& command, submap::LogOptions& options) {
   command
       .add_option("--odom-topic", options.odometry_topic,
                   "Of bags: topic of the odometry, if there are several; /tf takes the transform "
-                  "below the frame odom")
+                  "below the frame odom; none: the scans alone tell how the robot moves")
       ->type_name("TOPIC");
   command
       .add_option(

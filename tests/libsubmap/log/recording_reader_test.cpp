@@ -270,6 +270,27 @@ TEST_F(RecordedLog, WithoutScansOrOdometryItSaysWhatIsThere) {
   EXPECT_THAT(reason(), HasSubstr("/chat (std_msgs/String)"));
   add_scan(kStart);
   EXPECT_THAT(reason(), HasSubstr("no odometry"));
+  EXPECT_THAT(reason(), HasSubstr("--odom-topic none"));
+}
+
+TEST_F(RecordedLog, IsReadWithoutOdometryWhereThatIsWanted) {
+  add_transform("/tf_static", kStart, "base_link", "laser", Pose::planar(0.2, 0, 0));
+  for (int k = 0; k < 4; ++k) add_scan(kStart + k * kSecond);
+  // Far away in time, so that none is nearer than a second.
+  add_scan(kStart + 1000 * kSecond);
+  LogOptions without;
+  without.odometry_topic = "none";
+  const ReadLog log = read(without);
+  ASSERT_EQ(log.observations.size(), 5u);
+  EXPECT_TRUE(log.report.losses.empty());
+  for (const Observation& observation : log.observations) {
+    EXPECT_EQ(observation.T_odom_robot, Pose{});
+    EXPECT_NEAR(observation.readings.at(0).T_robot_sensor.translation.x(), 0.2, 1e-12);
+  }
+  WireWriter tag(Wire::ros1);
+  add("/tags", "apriltag_ros/AprilTagDetectionArray", kStart,
+      tag.header(kStart, "laser").number(uint32_t{0}).bytes());
+  EXPECT_THAT(reason(without), HasSubstr("have to be carried"));
 }
 
 TEST_F(RecordedLog, TheSummaryListsTopicsRatesAndFrames) {

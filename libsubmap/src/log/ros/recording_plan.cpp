@@ -13,7 +13,7 @@ constexpr uint64_t kBytesAhead = uint64_t{64} << 20;
 /// Stamps of one clock are received later by much less.
 constexpr int64_t kOneClock_ns = 1'000'000'000;
 constexpr size_t kMaxDelays = 1000;
-const std::string kNoLandmarks = "none";
+const std::string kNone = "none";
 const std::array<std::string, 2> kRobotFrames = {"base_link", "base_footprint"};
 
 /// What the first part of a recording shows of one topic.
@@ -41,7 +41,8 @@ std::optional<int64_t> median(std::vector<int64_t> values) {
 /// Looks at the first part of a recording.
 class Survey {
  public:
-  explicit Survey(std::unique_ptr<Recording> recording) : recording_(std::move(recording)) {
+  Survey(std::unique_ptr<Recording> recording, bool needs_odometry)
+      : recording_(std::move(recording)), has_odometry_(!needs_odometry) {
     while (!has_enough()) {
       const auto message = recording_->next();
       if (!message) break;
@@ -138,12 +139,14 @@ class Choice {
     const Topics landmarks = choose_landmarks();
     const Topics scans = choose_scans(!landmarks.empty());
     const Topics& first = scans.empty() ? landmarks : scans;
-    const SeenTopic* odometry = choose_odometry(*first.front());
+    const SeenTopic* odometry = options_.odometry_topic == kNone
+                                    ? do_without_odometry(*first.front(), !landmarks.empty())
+                                    : choose_odometry(*first.front());
     choose_imu();
     for (const SeenTopic* scan : first) {
       if (!scans.empty()) plan_.scan_topics.push_back(scan->topic.name);
       if (scan->topic.kind() == MessageKind::cloud) plan_.space = Space::se3;
-      compare_clocks(*scan, *odometry);
+      if (odometry != nullptr) compare_clocks(*scan, *odometry);
     }
     return std::move(plan_);
   }
@@ -175,7 +178,7 @@ class Choice {
     const Topics all = of_kind(is_landmark_data);
     Topics chosen;
     for (const std::string& name : plan_.landmark_topics)
-      if (name != kNoLandmarks) chosen.push_back(named(all, name, "landmark"));
+      if (name != kNone) chosen.push_back(named(all, name, "landmark"));
     std::ranges::copy_if(all, std::back_inserter(chosen), [&](const SeenTopic* seen) {
       return plan_.landmark_topics.empty() && seen->messages > 0 &&
              takes_landmarks(seen->topic.name, seen->topic.kind(), {});
@@ -211,20 +214,33 @@ class Choice {
     return use_odometry(**std::ranges::find_if(all, &has_messages), scan);
   }
 
+  /// The scans alone tell how the robot moves; null.
+  const SeenTopic* do_without_odometry(const SeenTopic& scan, bool has_landmarks) {
+    if (has_landmarks)
+      refuse("landmarks have to be carried to the scans next to them by odometry, which is none");
+    plan_.has_odometry = false;
+    find_robot_frame(scan);
+    if (plan_.robot_frame.empty()) plan_.robot_frame = scan.frame;
+    return nullptr;
+  }
+
   static bool has_messages(const SeenTopic* seen) { return seen->messages > 0; }
 
   const SeenTopic* use_odometry(const SeenTopic& odometry, const SeenTopic& scan) {
     plan_.odometry_topic = odometry.topic.name;
     plan_.robot_frame = odometry.child_frame;
+    find_robot_frame(scan);
+    return &odometry;
+  }
+
+  /// Some drivers leave the frame empty or name one that no transform knows.
+  void find_robot_frame(const SeenTopic& scan) {
     const auto reaches_scan = [&](const std::string& frame) {
       return plan_.transforms.find(frame, scan.frame, 0).has_value();
     };
-    // Some drivers leave the frame empty or name one that no transform knows.
-    if (!reaches_scan(plan_.robot_frame)) {
-      const auto other = std::ranges::find_if(kRobotFrames, reaches_scan);
-      if (other != kRobotFrames.end()) plan_.robot_frame = *other;
-    }
-    return &odometry;
+    if (reaches_scan(plan_.robot_frame)) return;
+    const auto other = std::ranges::find_if(kRobotFrames, reaches_scan);
+    if (other != kRobotFrames.end()) plan_.robot_frame = *other;
   }
 
   /// The odometry is the transform from a frame `odom` above the scan's frame to its child.
@@ -235,7 +251,7 @@ class Choice {
       refuse(
           "no odometry: neither messages of nav_msgs/Odometry nor a transform from a frame odom "
           "towards the scan's frame " +
-          scan.frame);
+          scan.frame + "; --odom-topic none makes a map of the scans alone");
     plan_.odom_frame = *odom;
     plan_.robot_frame = *std::prev(odom);
     return *std::ranges::max_element(trees, {}, [](auto* s) { return s->delays_ns.size(); });
@@ -268,11 +284,11 @@ bool takes_landmarks(const std::string& topic, MessageKind kind,
   if (!is_landmark_data(kind)) return false;
   // Detections may be of anything, people too.
   if (chosen.empty()) return kind != MessageKind::detections;
-  return topic != kNoLandmarks && std::ranges::find(chosen, topic) != chosen.end();
+  return topic != kNone && std::ranges::find(chosen, topic) != chosen.end();
 }
 
 RecordingPlan plan_recording(const std::filesystem::path& path, const LogOptions& options) {
-  const Survey survey(open_recording(path, options.further_parts));
+  const Survey survey(open_recording(path, options.further_parts), options.odometry_topic != kNone);
   return Choice(path, options, survey).make();
 }
 

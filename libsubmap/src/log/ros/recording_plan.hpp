@@ -16,6 +16,7 @@ struct RecordingPlan {
   /// Topics of landmarks that the user named; empty: each that carries markers.
   std::vector<std::string> landmark_topics;
   std::string odometry_topic;  ///< of nav_msgs/Odometry; empty: the odometry is in /tf
+  bool has_odometry = true;    ///< false: the scans alone tell how the robot moves
   std::string odom_frame;      ///< with odometry in /tf: the parent of robot_frame
   std::string robot_frame;
   std::string imu_topic;     ///< the only one; empty if there is none, or several

@@ -215,7 +215,12 @@ void RecordingReader::add_scan(const RecordedMessage& message, size_t sensor,
   scan.stamp_ns = clock_ns(header, message.received_ns);
   scan.own_stamp_s = seconds(header.stamp_ns != 0 ? header.stamp_ns : message.received_ns);
   if (header.stamp_ns == 0) note("stamps of 0: the time of receipt is taken", scan.place);
-  if (mount(header, scan)) waiting_.push_back(std::move(scan));
+  if (!mount(header, scan)) return;
+  // An odometry that stands still is none to the tracker.
+  if (!plan_.has_odometry)
+    for (const double after_s : {scan.first_beam_s, 0.0, scan.last_beam_s})
+      odometry_.add(stamp_after(scan.stamp_ns, after_s), Pose{});
+  waiting_.push_back(std::move(scan));
 }
 
 int64_t RecordingReader::clock_ns(const MessageHeader& header, int64_t received_ns) {
@@ -299,8 +304,8 @@ void RecordingReader::add_transforms(const RecordedMessage& message, const Recor
   lose("transforms that are no poses on " + topic.name, place(topic), all.refused);
   for (const TransformMessage& transform : all.transforms) {
     plan_.transforms.add(transform, is_static_topic(topic.name));
-    if (plan_.odometry_topic.empty() && transform.child_frame == plan_.robot_frame &&
-        transform.header.frame == plan_.odom_frame)
+    if (plan_.has_odometry && plan_.odometry_topic.empty() &&
+        transform.child_frame == plan_.robot_frame && transform.header.frame == plan_.odom_frame)
       add_odometry(transform.header, message.received_ns, transform.T_parent_child);
   }
 }

@@ -51,7 +51,8 @@ class LogReader {
 struct LogOptions {
   /// Topics of the range sensors, sensor 0 first; empty: the only one.
   std::vector<std::string> scan_topics;
-  /// Topic of the odometry, nav_msgs/Odometry or /tf; empty: the only one.
+  /// Topic of the odometry, nav_msgs/Odometry or /tf; empty: the only one; "none": the scans alone
+  /// tell how the robot moves, and the poses of the observations are identities.
   std::string odometry_topic;
   /// File with the poses of a folder of clouds; empty: there is none.
   std::string odometry_file;
