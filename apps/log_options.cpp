@@ -12,14 +12,14 @@ void add_log_options(CLI::App& command, submap::LogOptions& options) {
                   "Of bags: topic of the scans or clouds, if there are several; may be given once "
                   "for each sensor")
       ->type_name("TOPIC")
-      ->take_all();
+      ->allow_extra_args(false);
   command
       .add_option("--landmark-topic", options.landmark_topics,
                   "Of bags: topic of landmarks, may be given once for each sensor; all topics of "
                   "markers without it, vision_msgs/Detection3DArray only with it, since what it "
                   "tells of may move; none takes none")
       ->type_name("TOPIC")
-      ->take_all();
+      ->allow_extra_args(false);
   command
       .add_option("--odom-topic", options.odometry_topic,
                   "Of bags: topic of the odometry, if there are several; /tf takes the transform "

@@ -60,6 +60,26 @@ TEST(RealRecordings, WithoutOdometryTheyCannotBeMappedAndItSaysSo) {
   EXPECT_EQ(run_hmtmap("check " + bag("scan_tools_demo.bag")).code, 1);
 }
 
+TEST(RealRecordings, AreMappedByTheirScansWhereThatIsWanted) {
+  HMT_REQUIRE_REAL_DATA("bags/scan_tools_demo.bag");
+  const TemporaryFolder folder;
+  const CommandResult map =
+      run_hmtmap("map --json --odom-topic none " + bag("scan_tools_demo.bag") + " -o " +
+                 (folder.path() / "a.hmt").string());
+  ASSERT_EQ(map.code, 0) << map.err;
+  EXPECT_EQ(map.json().at("observations"), 360);
+}
+
+// A topic may stand before the log, and does not swallow it.
+TEST(Recordings, TopicsAreGivenOneByOne) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "a.bag";
+  write_file(path, ros1_bag(simulated_messages({"rooms", 1, 1}, submap::Wire::ros1, 10)));
+  EXPECT_EQ(run_hmtmap("info --scan-topic /scan " + path).code, 0);
+  const CommandResult two = run_hmtmap("info --json --scan-topic /scan --scan-topic /no " + path);
+  EXPECT_THAT(two.out, HasSubstr("no scan topic /no"));
+}
+
 // A damaged bag is mapped from what is left of it, and the exit code says so.
 TEST(Recordings, ACutBagIsCheckedWithLosses) {
   const TemporaryFolder folder;

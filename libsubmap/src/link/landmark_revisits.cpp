@@ -18,6 +18,8 @@ namespace {
 constexpr double kImpossibleShare = 0.3;
 /// Keyframes farther apart see too little in common.
 constexpr double kNear_m = 3;
+/// Visits that a visit is compared with: the largest, so that the work grows with the rounds.
+constexpr size_t kMostCompared = 8;
 
 /// How a landmark was seen on one visit.
 struct Visit {
@@ -96,13 +98,11 @@ std::vector<bool> at_one_place(const RevisitCheck& check, const std::vector<Visi
   std::stable_sort(by_size.begin(), by_size.end(),
                    [&](size_t l, size_t r) { return all[l].sightings > all[r].sightings; });
   std::vector<bool> is_there(all.size(), false);
+  std::vector<size_t> largest;
   for (const size_t k : by_size) {
-    is_there[k] = true;
-    for (size_t other = 0; other < all.size(); ++other)
-      if (other != k && is_there[other] && check.contradict(all[other], all[k])) {
-        is_there[k] = false;
-        break;
-      }
+    is_there[k] = std::none_of(largest.begin(), largest.end(),
+                               [&](size_t other) { return check.contradict(all[other], all[k]); });
+    if (is_there[k] && largest.size() < kMostCompared) largest.push_back(k);
   }
   return is_there;
 }

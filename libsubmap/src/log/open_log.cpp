@@ -125,7 +125,7 @@ void check_parts(const fs::path& path, const Format* format, const LogOptions& o
                        ", but only CARMEN logs and recordings of ROS can be given in parts");
     if (format_of(part) != format)
       throw InputError(part.string() + ": not of the format of " + path.string() +
-                       ", the part before it");
+                       ", the first part");
   }
 }
 
